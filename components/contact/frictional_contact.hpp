@@ -148,10 +148,10 @@ class FrictionalContact : public Component,
   /// The opening by dilation, m, after slip of this size, and its derivative.
   double dilated(int cell, double slip) const;
   double dilation_at(int cell, double slip) const;
-  double missing_pressure(int i) const;
   double closure(double normal_traction) const;              ///< m
   double closure_by_traction(double normal_traction) const;  ///< its derivative, m/Pa
   double gap(int cell, const Vector& traction, const Vector& jump) const;
+  double pressure_beside(int cell) const;
   /// mu_d; that of the start where friction does not weaken.
   double dynamic_friction(int cell) const;
   /// The path q of slip and opening at the end of the step, m, with the gap of the cell then.

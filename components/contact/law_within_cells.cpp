@@ -7,16 +7,15 @@
 
 namespace sprekk::contact {
 
-/// By how much the pressure between the walls of a cell is below that of the cells beside it, Pa. The fracture parts
-/// over a part of such a cell; where its walls still touch, they press like those beside it.
-double FrictionalContact::missing_pressure(int i) const {
+/// The largest pressure between walls near a cell on its fracture, Pa.
+double FrictionalContact::pressure_beside(int i) const {
+  constexpr int near = 3;  // cells: those in which walls hardly touch may be neighbours
   const Fracture& fracture = mesh_.fractures[mesh_.fracture_cells[i].fracture];
   const int last = fracture.first_cell + fracture.cell_count - 1;
-  double least = traction_.now()[dimension * i];
-  const double here = least;
-  for (int k = std::max(fracture.first_cell, i - 1); k <= std::min(last, i + 1); ++k)
-    least = std::min(least, traction_.now()[dimension * k]);
-  return here - least;
+  double largest = 0;
+  for (int k = std::max(fracture.first_cell, i - near); k <= std::min(last, i + near); ++k)
+    largest = std::max(largest, -traction_.now()[dimension * k]);
+  return largest;
 }
 
 std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
@@ -36,12 +35,17 @@ std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   const double dilation = std::copysign(t.dilation, slip),
                opening = dilated(i, std::abs(slip)) - dilation * slip - closure(normal);
   if (!is_closed) return SlidingWalls{t.strength.friction, std::copysign(1.0, slip), dilation, opening};
-  // The rock that brings walls to rest takes about as much shear from all places. So where a part of the cell has
-  // parted, the mobilised friction is that of the pressure at the places that touch. As the cell parts, this becomes
-  // the law of open walls; the ratio of the two small means could have either sign.
-  const double more = std::max(missing_pressure(i), least_slip * std::abs(slip) * stiffness_to_slip);
-  const double along = shear + std::copysign(t.strength.friction * more, slip);
-  return SlidingWalls{std::abs(along) / (more - normal), std::copysign(1.0, along), dilation, opening};
+  // Walls hardly touch in a cell that has parted on the most of its length. Where they do they press like those beside
+  // it, and the rock that brings them to rest takes about as much shear from them as from all other places. The ratio
+  // of the two small means could have either sign. As the cell parts, this becomes the law of open walls.
+  constexpr double hardly = 0.2;  // of the pressure beside
+  const double side = slip != 0 ? std::copysign(1.0, slip) : std::copysign(1.0, shear), taken = held - side * shear;
+  // (Cohesion over a pressure that vanishes has no limit.)
+  const double least = t.strength.cohesion > 0
+                           ? 0
+                           : std::max(hardly * pressure_beside(i), least_slip * std::abs(slip) * stiffness_to_slip);
+  const double along = -held / normal - taken / std::max(-normal, least);
+  return SlidingWalls{std::abs(along), side * std::copysign(1.0, along), dilation, opening};
 }
 
 }  // namespace sprekk::contact

@@ -128,18 +128,20 @@ StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, do
   constexpr double aim = 0.5;   // of the overshoot: the middle of what is accepted
   constexpr double half = 0.5;  // of the step, where the part to take does not follow from its loads
   constexpr double slowest = 0.4, at_constant_rate = 1;  // powers of time with which loads rise; 1/2: diffusion
-  constexpr double least = 0.01, most = 0.9;             // of the step that was refused
+  constexpr double least = 0.01, least_by_logarithm = 0.1, most = 0.9;             // of the step that was refused
   const double wanted = (1 + aim * options_.overshoot - before) / (now - before);  // of the rise of this step
   double part = now > before ? wanted : half;
-  if (refusal_ && refusal_->start == step.start && refusal_->dt > step.dt && refusal_->load > now && now > before) {
+  if (refusal_ && refusal_->start == step.start && refusal_->before == before && refusal_->dt > step.dt &&
+      refusal_->load > now && now > before) {
     const double shortening = std::log(refusal_->dt / step.dt);
     const double power = std::log((refusal_->load - before) / (now - before)) / shortening;
-    // Two refusals tell the power; a smaller one stands for the logarithm of time, by which the pressure at a well
-    // rises.
-    part = power < slowest ? std::exp((wanted - 1) * (now - before) * shortening / (refusal_->load - now))
+    // Two refusals tell the power. Slower than with the slowest, loads rise like the logarithm of time, as the pressure
+    // at a well does, or level off.
+    part = power < slowest ? std::max(least_by_logarithm,
+                                      std::exp((wanted - 1) * (now - before) * shortening / (refusal_->load - now)))
                            : std::pow(wanted, 1 / std::min(power, at_constant_rate));
   }
-  refusal_ = Refusal{step.start, step.dt, now};
+  refusal_ = Refusal{step.start, step.dt, before, now};
   StepStatus status{false, reason, 0};
   status.retry_dt = std::max(smallest_step_, step.dt * std::clamp(part, least, most));
   return status;

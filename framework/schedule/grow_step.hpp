@@ -90,7 +90,7 @@ class GrowStep : public ScheduleStep {
   Growing::Load load_;
   /// A step that was refused since its load came too far above 1.
   struct Refusal {
-    double start, dt, load;  ///< s, s, load of the tip for which the step was refused
+    double start, dt, before, load;  ///< s, s, loads of the tip for which the step was refused at its start and end
   };
   std::optional<Refusal> refusal_;  ///< the last one
   std::optional<StepTime> last_;    ///< the time step of the last run

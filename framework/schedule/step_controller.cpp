@@ -155,7 +155,8 @@ StepTime StepController::next(double longest) const {
   if (step.dt <= longest * (1 + rounding)) return step;
   const auto target = std::upper_bound(targets_.begin(), targets_.end(), time_);
   const double rest = target == targets_.end() ? step.dt : *target - time_;
-  step.dt = rest / std::ceil(rest / longest - rounding);
+  const double part = rest / std::ceil(rest / longest - rounding);
+  step.dt = part > smallest() ? part : longest;
   step.end = step.start + step.dt;
   return step;
 }

@@ -71,7 +71,8 @@ class StepController {
   double wanted() const { return wanted_; }  ///< s, the size of the next step unless a target or a hold comes before
   StepTime next() const;
   /// The same, but no longer than `longest` (s, positive): then one of equal parts of what is left to the next target,
-  /// so that no tiny step is left before it.
+  /// so that with the same limit no tiny step is left before it; or as long as it may be, if that part is no longer
+  /// than the smallest step.
   StepTime next(double longest) const;
 
   void accepted(const StepTime& step, int iterations);

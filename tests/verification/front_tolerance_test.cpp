@@ -55,6 +55,11 @@ TEST(FrontToleranceAlone, IsSaidToHaveNoEffectAfterSteps) {
   EXPECT_EQ(notes_with("after_step", "front_tolerance"), 1u);
   EXPECT_EQ(notes_with("within_step", "front_tolerance"), 0u);
   EXPECT_EQ(notes_with("after_step", "arrest_tolerance"), 0u);
+  SceneRun resting("paper/wing_cracks.yaml", {{"schedule", "[{solve: [pore, rock, conduit, contact]}]"},
+                                              {"components.tips.growth.front_tolerance", "1e-5"}});
+  Notes notes;
+  for (const Part* part : resting.model().parts()) part->note_input(notes);
+  EXPECT_EQ(notes.all().size(), 1u);
 }
 
 class FrontTolerance : public ::testing::TestWithParam<const char*> {};

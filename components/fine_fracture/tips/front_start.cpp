@@ -48,19 +48,25 @@ double length_that_counts(const Mesh& mesh, const TipEnd& end) {
 
 }  // namespace
 
-/// The speed of all tips together in this step over its mean in the last two. The shares of the tips alternate with the
-/// division of segments; their sum hardly does. It is taken to go on as it changed from one step to the next.
-double TipsFront::trend() const {
+/// Turns the mean speeds of the tips over the last two steps into those that are expected of this one. The shares of
+/// the tips alternate with the division of segments; their sum hardly does. It is taken to go on as it changed from one
+/// step to the next.
+void TipsFront::expect_speeds() {
+  const auto has_trend = [](const auto& now) {
+    return now.speed > 0 && now.speed_before > 0 && now.lasted > 0 && now.lasted_before > 0;
+  };
   double last = 0, before = 0, part = 0;
   for (const Tips::Tip& tip : tips_.tips_) {
-    const Tips::State& now = tip.now;
-    if (!(now.speed > 0 && now.speed_before > 0 && now.lasted > 0 && now.lasted_before > 0)) continue;
-    last += now.speed;
-    before += now.speed_before;
-    part = carried_on * (dt_ + now.lasted) / (now.lasted + now.lasted_before);
+    if (!has_trend(tip.now)) continue;
+    last += tip.now.speed;
+    before += tip.now.speed_before;
+    part = carried_on * std::min(1.0, (dt_ + tip.now.lasted) / (tip.now.lasted + tip.now.lasted_before));
   }
-  if (last == 0) return 1;
-  return last * std::clamp(std::pow(last / before, part), 1 / largest_trend, largest_trend) / (0.5 * (last + before));
+  if (last == 0) return;
+  const double trend = std::clamp(std::pow(last / before, part), 1 / largest_trend, largest_trend),
+               last_over_mean = last / (0.5 * (last + before));
+  for (std::size_t i = 0; i < at_start_.size(); ++i)
+    at_start_[i].speed *= trend * (has_trend(tips_.tips_[i].now) ? last_over_mean : 1);
 }
 
 void TipsFront::add(Tips::Tip& tip) {

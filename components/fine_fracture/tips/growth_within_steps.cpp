@@ -34,10 +34,11 @@ void Tips::grow_within_steps() {
 
 void Tips::note_input(Notes& notes) const {
   if (!options_.growth.has_front_tolerance || grows_within_steps_) return;
-  notes.add("front_tolerance without effect",
-            fmt::format("'growth.front_tolerance' of {} has no effect (it is for growth within steps, and this scene "
-                        "has none) give 'update: within_step' to 'grow', or leave it out",
-                        name()));
+  notes.add(
+      "front_tolerance without effect",
+      fmt::format("'growth.front_tolerance' of {} has no effect (its tips do not grow within steps) leave it out, "
+                  "or let them: 'grow' with 'update: within_step'",
+                  name()));
 }
 
 void Tips::prepare(Growing& other) const {

@@ -10,7 +10,7 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double full_segment = 1;        ///< of an increment: a longer segment is divided
-constexpr double rest_of_segment = 0.5;   ///< of an increment, or of a segment that turns: what may still turn
+constexpr double rest_of_segment = 0.5;   ///< of an increment, or of a shorter segment: what may still turn
 constexpr double longest_segment = 1.5;   ///< of an increment: a longer one is divided in a short step, too
 constexpr double turn_of_segment = 0.06;  ///< rad: one that turns further is divided when it is shorter
 constexpr double least_full = 0.4;        ///< of the length of a straight segment that is divided
@@ -37,10 +37,7 @@ double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const 
   const bool is_short = start.speed > 0 && start.speed * dt_ < least_advance * increment;
   if (is_short && start.covered < longest_segment * increment) return 0;
   const double full = full_segment * increment * part_by_turn(tip);
-  if (start.covered <= full) return 0;
-  // A much shorter last cell would change K by up to 0.4 %.
-  const bool turns = full < full_segment * increment;
-  return start.covered - rest_of_segment * (turns ? start.covered : full);
+  return start.covered > full ? start.covered - rest_of_segment * std::min(start.covered, increment) : 0;
 }
 
 /// The places of the tip in the last segment of the new mesh. `before`: the places in the last segment of the mesh

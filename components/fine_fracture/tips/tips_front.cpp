@@ -24,8 +24,7 @@ FrontState TipsFront::state_of(const Tips& tips, const Tips::Tip& tip) {
 TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goes_on)
     : tips_(tips), dt_(step.dt), may_shrink_(may_shrink), goes_on_(goes_on) {
   for (Tips::Tip& tip : tips_.tips_) add(tip);
-  const double by_trend = trend();
-  for (FrontTip& start : at_start_) start.speed *= by_trend;
+  expect_speeds();
   find_joinings();
   options_.increment = tips_.options_.growth.increment;
   options_.shortest = tips_.options_.growth.smallest_length();

@@ -44,7 +44,7 @@ class TipsFront : public FrontSearch {
   double part_by_turn(const Tips::Tip& tip) const;
   double what_stays(const Tips::Tip& tip, const FrontTip& start) const;
   double speed(std::size_t tip) const;
-  double trend() const;
+  void expect_speeds();
   void add(Tips::Tip& tip);
   void find_joinings();
   void propose();

@@ -169,8 +169,8 @@ TEST(GrowStep, RefusalsInARowTellHowTheLoadRises) {
 TEST(GrowStep, RefusalsInARowTellALoadThatRisesWithTheLogarithmOfTime) {
   Schedule run(usual);
   double dt = standard;
-  const auto load = [](double time) { return 1.67 + 0.2 * std::log(time / standard); };
-  const double onset = standard * std::exp((1.01 - 1.67) / 0.2);  // in the middle of what is accepted
+  const auto load = [](double time) { return 1.45 + 0.2 * std::log(time / standard); };
+  const double onset = standard * std::exp((1.01 - 1.45) / 0.2);  // in the middle of what is accepted
   for (int refusals = 0; refusals < 2; ++refusals) {
     run.tips.load = {.now = load(dt), .accepted = 0, .onset = load(dt), .onset_accepted = 0};
     const StepStatus status = run.schedule->run({0, dt, dt});
@@ -180,6 +180,23 @@ TEST(GrowStep, RefusalsInARowTellALoadThatRisesWithTheLogarithmOfTime) {
   EXPECT_NEAR(dt, onset, 1e-12 * onset);
   run.tips.load.now = run.tips.load.onset = load(dt);
   EXPECT_TRUE(run.schedule->run({0, dt, dt}).converged);
+}
+
+// A load that has levelled off looks like that, too: the step does not become shorter than a tenth by it.
+TEST(GrowStep, ALoadThatLevelsOffMakesNoTinySteps) {
+  Schedule run(usual);
+  double dt = standard;
+  const double scale = standard / 10, onset = scale * std::log(3);
+  for (int attempts = 0;; ++attempts) {
+    ASSERT_LT(attempts, 6);
+    const double load = 1.5 * (1 - std::exp(-dt / scale));
+    run.tips.load = {.now = load, .accepted = 0, .onset = load, .onset_accepted = 0};
+    const StepStatus status = run.schedule->run({0, dt, dt});
+    if (status.converged) break;
+    EXPECT_GE(status.retry_dt, 0.1 * dt);
+    dt = status.retry_dt;
+  }
+  EXPECT_GT(dt, 0.5 * onset);
 }
 
 TEST(GrowStep, TipsThatHaveGrownBeforeDoNotRefuseAStepInWhichTheyArrest) {

@@ -331,6 +331,16 @@ TEST(StepController, ALimitLeavesNoTinyStepBeforeATarget) {
   EXPECT_NEAR(controller.next(0.6).dt, 7 / 12.0, 1e-15);
 }
 
+// A step that is as short as the smallest could not be cut.
+TEST(StepController, ALimitIsTakenWholeWhereEqualPartsAreTheSmallestSteps) {
+  TimeOptions options = hours(10);
+  options.smallest = 0.5;
+  const StepController controller(options, {1});
+  EXPECT_EQ(controller.next(0.9).dt, 0.9);
+  options.smallest = 0.4;
+  EXPECT_EQ(StepController(options, {1}).next(0.9).dt, 0.5);
+}
+
 TEST(StepController, ContinuesWithTheLastPause) {
   StepController whole(hours(10), {});
   whole.hold(0.01, 1);
