@@ -159,6 +159,14 @@ Growing::Load GrowStep::examine(const StepTime& step) {
 }
 
 StepStatus GrowStep::run(const StepTime& step) {
+  try {
+    return look_and_grow(step);
+  } catch (const UnsolvedGrowth& unsolved) {
+    return {false, unsolved.what(), 0};
+  }
+}
+
+StepStatus GrowStep::look_and_grow(const StepTime& step) {
   if (rests_) return {true, "", 0};
   last_ = step;
   extensions_.clear();

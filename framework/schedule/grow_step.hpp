@@ -79,6 +79,8 @@ class GrowStep : public ScheduleStep {
   StepStatus settle(const StepTime& step) { return settle_.run(step); }
 
  private:
+  /// Throws UnsolvedGrowth.
+  StepStatus look_and_grow(const StepTime& step);
   /// Refuses a step, and asks for one at whose end the load is just above 1.
   StepStatus refused(const std::string& reason, const StepTime& step, double before, double now);
   /// The load of the tips, and whether they grow with the state held.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,13 @@
 namespace sprekk {
 
 class Growing;
+
+/// Thrown by examine(), examine_followed() and grow() where no answer is found in the present state: the step counts as
+/// one that is not solved.
+class UnsolvedGrowth : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// The search for the advance of all tips in one time step, so that the condition of growth holds in the state at the
 /// end of the step, on the mesh that has the advance. Usage: build the trial mesh with paths(), run the step on it, and

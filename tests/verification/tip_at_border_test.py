@@ -71,7 +71,8 @@ class TipAtBorder(SceneRuns):
         self.assertEqual(max(row[TIP + "stopped"] for row in run.rows), 0)
         after_onset = [row for row in run.rows if row[TIP + "length"] > 6e-3]
         self.assertGreater(len(after_onset), 9)
-        self.assertLess(max(row[TIP + "K_eq"] for row in run.rows), 1.005 * TOUGHNESS)  # at the onset: as in notes of growth into shear
+        # The first increments are found with the state held, to `arrest_tolerance`.
+        self.assertLess(max(row[TIP + "K_eq"] for row in run.rows), 1.01 * TOUGHNESS)
         for row in after_onset:
             self.assertEqual(row[TIP + "grows"], 1)
             # Found to 1e-7, against the toughness with what the viscosity of the fluid adds at this speed.

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "components/fine_fracture/boundary_element/contact_forces.hpp"
 #include "components/fine_fracture/boundary_element/places_of_offset.hpp"
+#include "components/fine_fracture/fine_level/contact_forces.hpp"
 #include "components/fine_fracture/fine_level/outline.hpp"
 #include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "framework/invariants.hpp"

@@ -26,7 +26,10 @@ class Still : public Part {
 /// Tips whose behaviour the test sets.
 class Tips : public Still, public Growing {
  public:
-  Load examine(const StepTime&) override { return load; }
+  Load examine(const StepTime&) override {
+    if (is_unsolved) throw UnsolvedGrowth("no answer");
+    return load;
+  }
   void examine_followed(const StepTime&) override { ++examined_in_trials; }
   Growth grow(const StepTime&) override {
     ++grown;
@@ -44,7 +47,7 @@ class Tips : public Still, public Growing {
   Load load;
   Growth growth;
   int grown = 0, examined_in_trials = 0;
-  bool may_be_within = false, is_within = false, holds = false, far_above = false;
+  bool may_be_within = false, is_within = false, holds = false, far_above = false, is_unsolved = false;
 };
 
 Mesh two_cells() {
@@ -96,6 +99,16 @@ TEST(GrowStep, DoesNothingBelowTheLoadOfGrowth) {
   EXPECT_EQ(status.retry_dt, 0);
   EXPECT_EQ(run.tips.grown, 0);
   EXPECT_TRUE(run.step().extensions().empty());
+}
+
+// It is cut, as one whose equations are not solved, and the run goes on.
+TEST(GrowStep, WithoutAnAnswerIsAnUnsolvedStep) {
+  Schedule run(usual);
+  run.tips.is_unsolved = true;
+  const StepStatus status = run.schedule->run({0, standard, standard});
+  EXPECT_FALSE(status.converged);
+  EXPECT_EQ(status.retry_dt, 0);
+  EXPECT_THAT(status.reason, HasSubstr("no answer"));
 }
 
 TEST(GrowStep, HandsOnWhatHasGrown) {

@@ -1,19 +1,17 @@
 #include "components/fine_fracture/quarter_point/elasticity/sliding_walls.hpp"
 
 #include <map>
-#include <stdexcept>
 
+#include "components/fine_fracture/fine_level/contact_forces.hpp"
 #include "components/fine_fracture/fine_level/quadrature.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/wall_place.hpp"
-#include "framework/dense/lu.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
 
 constexpr int edge_points = 3;  ///< exact for the product of a hat function and a quadratic displacement
-constexpr int most_rounds = 100;
 
 double hat(int end, double t) { return end == 0 ? 1 - t : t; }
 
@@ -77,29 +75,7 @@ Vector SlidingContact::displacement(
   const Eigen::MatrixXd by_units = responses(units);
   Eigen::MatrixXd compliance(count_, count_);
   for (int j = 0; j < count_; ++j) compliance.col(j) = gaps(by_units.col(j), false);
-  // Semismooth Newton: the set of places that touch is found by the signs of tractions and gaps.
-  const Vector gaps_without = gaps(without, true);
-  std::vector<char> touches(count_, 1);
-  Vector f;
-  for (int round = 0; round < most_rounds; ++round) {
-    std::vector<int> closed;
-    for (int i = 0; i < count_; ++i)
-      if (touches[i]) closed.push_back(i);
-    f = Vector::Zero(count_);
-    const Eigen::MatrixXd matrix = compliance(closed, closed);
-    const Vector right = -gaps_without(closed);
-    if (!closed.empty()) f(closed) = DenseLu(matrix).solve(right);
-    const Vector gap = gaps_without + compliance * f;
-    bool is_found = true;
-    for (int i = 0; i < count_; ++i) {
-      const bool next = touches[i] ? f[i] <= 0 : gap[i] < 0;
-      is_found = is_found && next == static_cast<bool>(touches[i]);
-      touches[i] = next;
-    }
-    if (!is_found) continue;
-    return by_units * f;
-  }
-  throw std::runtime_error("fine level: no state of contact was found on the walls beside a kink");
+  return by_units * contact_forces(compliance, gaps(without, true));
 }
 
 }  // namespace sprekk::fine_fracture

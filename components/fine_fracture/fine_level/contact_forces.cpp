@@ -1,9 +1,9 @@
-#include "components/fine_fracture/boundary_element/contact_forces.hpp"
+#include "components/fine_fracture/fine_level/contact_forces.hpp"
 
-#include <stdexcept>
 #include <vector>
 
 #include "framework/dense/lu.hpp"
+#include "framework/schedule/growing.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -30,7 +30,7 @@ Vector contact_forces(const Eigen::MatrixXd& compliance, const Vector& gaps) {
     }
     if (is_found) return f;
   }
-  throw std::runtime_error("fine level: no state of contact was found on the walls beside a kink");
+  throw UnsolvedGrowth("fine level: no state of contact was found on the walls beside a kink");
 }
 
 }  // namespace sprekk::fine_fracture
