@@ -62,6 +62,12 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
 
 void Tips::note_step(Notes& notes, const StepTime&) const {
   for (const EndNote& note : notes_) notes.add(note.topic, note.text, note.measure);
+  for (const Tip& tip : tips_)
+    if (tip.lacks_contact)
+      notes.add("no state of contact around " + name() + "." + tip.name,
+                fmt::format("no state of contact was found on the walls around {}.{}, which slide by the law of their "
+                            "cells: they carry the tractions of the coarse level, and K may be off by some percent",
+                            name(), tip.name));
   if (!options_.toughness) return;
   for (const Tip& tip : tips_) note_shear(tip, notes);
 }

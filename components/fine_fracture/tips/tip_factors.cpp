@@ -122,7 +122,15 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) try {
   }
   loads.stress_offset = [&tip](const std::vector<Point>&) { return tip.offsets(); };
   if (tip.body_forces) loads.body_force = [&tip](const std::vector<Point>&) { return tip.body_forces(); };
-  return keep_factors(tip, tip.level->solve(loads));
+  tip.lacks_contact = false;
+  try {
+    return keep_factors(tip, tip.level->solve(loads));
+  } catch (const UnsolvedGrowth&) {
+    // Friction may allow no state of contact on these walls. The tractions of the coarse level are those of one.
+    tip.lacks_contact = true;
+    loads.sliding = nullptr;
+    return keep_factors(tip, tip.level->solve(loads));
+  }
 } catch (const UnsuitableRock& rock) {
   throw refusal(rock);
 }

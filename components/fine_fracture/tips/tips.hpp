@@ -119,6 +119,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
     TipSurroundings::BodyForces body_forces;  ///< the same
     FineDomain domain;
     std::optional<KeptFactors> kept_factors;
+    bool lacks_contact = false;  ///< walls around it carry the tractions of the coarse level: they have no other state
     std::uint64_t evaluated_for = 0;
     /// What trials within a step have in common, so that factors depend smoothly on the advance.
     std::shared_ptr<const KeptLevel> pattern;
