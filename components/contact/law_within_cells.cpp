@@ -35,7 +35,7 @@ std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   const double dilation = std::copysign(t.dilation, slip),
                opening = dilated(i, std::abs(slip)) - dilation * slip - closure(normal);
   if (!is_closed) return SlidingWalls{t.strength.friction, std::copysign(1.0, slip), dilation, opening};
-  // Walls hardly touch in a cell that has parted on the most of its length. Where they do they press like those beside
+  // Walls hardly touch in a cell that has parted over most of its length. Where they do they press like those beside
   // it, and the rock that brings them to rest takes about as much shear from them as from all other places. The ratio
   // of the two small means could have either sign. As the cell parts, this becomes the law of open walls.
   constexpr double hardly = 0.2;  // of the pressure beside

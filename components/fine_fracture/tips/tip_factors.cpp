@@ -77,6 +77,7 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) try {
       maker_->needs_one_stiffness() ? FineRock(Elasticity{lame.lambda, lame.shear}) : rock_around(center);
   if (!tip.level || !(tip.level->rock() == rock) || !is_same(domain.geometry, tip.domain.geometry)) {
     tip.kept_factors.reset();
+    tip.lacks_contact = false;
     tip.offsets = nullptr;
     tip.body_forces = nullptr;
     tip.domain = std::move(domain);

@@ -60,7 +60,7 @@ TEST_P(PartlyParted, WallsThatRestHaveTheirMobilisedFriction) {
     }
 }
 
-// Where a cell has parted on the most of its length, the pressure at the places that touch is that of the cells beside
+// Where a cell has parted over most of its length, the pressure at the places that touch is that of the cells beside
 // it: a fifth, here, for the law to be continuous in the share. What holds walls back is the rock, which takes as much
 // shear from places that press much as from others, so that the mean of a cell may slide back while its places rest.
 TEST_P(PartlyParted, ATraceOfBackSlipTurnsNoFriction) {
