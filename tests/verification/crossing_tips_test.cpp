@@ -77,6 +77,26 @@ TEST(CrossingTips, HaveTheClosedFormWhateverTheSquareHasInIt) {
   }
 }
 
+// The side of the square would lie a cell or two beside the kink, where displacements vary within a cell: it keeps four
+// cells away. At 20 mm from the kink the error is 0.3 %. The last square is all of the rock.
+TEST(KinkedFracture, HasTheSameFactorsWhereverItLeavesTheSquare) {
+  for (const double wing : {0.13, 0.16})
+    for (const double mirrored : {1.0, -1.0}) {
+      const auto towards = [&](double length, double degrees) -> Point {
+        const double angle = degrees * std::numbers::pi / 180;
+        return {length * std::cos(angle), mirrored * length * std::sin(angle)};
+      };
+      const Point first = towards(half_length, 135), last = towards(wing, 15);
+      const std::string kinked = fmt::format("{{a: {{points: [[{:.15g}, {:.15g}], [0, 0], [{:.15g}, {:.15g}]]}}}}",
+                                             first[0], first[1], last[0], last[1]);
+      SceneRun small = pulled(kinked, "size: 0.3 m"), all = pulled(kinked, "size: 8 m");
+      ASSERT_TRUE(small.step() && all.step());
+      const double K_I = all.quantity("tips.a_last.K_I");
+      EXPECT_NEAR(small.quantity("tips.a_last.K_I"), K_I, 2e-3 * K_I) << wing;
+      EXPECT_NEAR(small.quantity("tips.a_last.K_II"), all.quantity("tips.a_last.K_II"), 4e-3 * K_I) << wing;
+    }
+}
+
 TEST(CrossingTips, HaveTheSameFactorsOnAMeshThatIsRefinedToATolerance) {
   SceneRun run = pulled(crossing, "size: 8 m, tolerance: 3e-3");
   ASSERT_TRUE(run.step());

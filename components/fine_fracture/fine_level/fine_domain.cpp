@@ -120,18 +120,48 @@ Point snapped(const Rectangle& box, Point x) {
   return x;
 }
 
-/// The smallest distance of the outline from tips, kinks and junctions inside of the rock, and from segments along one
-/// of its sides. For a segment the distance of its farthest point counts, so that segments that cross a side are left
-/// out. Points on the outer boundary of the rock are left out, too.
-double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths) {
-  double gap = std::numeric_limits<double>::infinity();
+/// A place from which the outline keeps away, and how far, over the distance from a tip.
+struct Avoided {
+  Point position;  ///< m
+  double gap;
+};
+
+/// All ends, junctions and bends. Jumps vary as fast beside a sharp kink as beside a tip, and on both sides of it;
+/// beside a slight bend they hardly vary.
+std::vector<Avoided> avoided_places(const std::vector<FracturePath>& paths) {
+  constexpr double at_kink = 4, at_least = 0.25;
+  constexpr double sharp = 0.5;  // the sine of a bend
+  const auto is_junction = [&paths](const FracturePath& of, const Point& x) {
+    return std::ranges::any_of(
+        paths, [&](const FracturePath& other) { return &other != &of && std::ranges::count(other.points, x) > 0; });
+  };
+  std::vector<Avoided> places;
   for (const FracturePath& path : paths)
-    for (const Point& x : path.points)
-      for (int k = 0; k < dimension; ++k) {
-        if (x[1 - k] < box.low[1 - k] || x[1 - k] > box.high[1 - k]) continue;
-        if (box.low[k] > rock.low[k]) gap = std::min(gap, std::abs(x[k] - box.low[k]));
-        if (box.high[k] < rock.high[k]) gap = std::min(gap, std::abs(x[k] - box.high[k]));
+    for (std::size_t i = 0; i < path.points.size(); ++i) {
+      const Point& x = path.points[i];
+      double gap = 1;
+      if (i > 0 && i + 1 < path.points.size()) {
+        const Point before = (x - path.points[i - 1]).normalized(), after = (path.points[i + 1] - x).normalized();
+        const double bend = before.dot(after) > 0 ? std::abs(cross(before, after)) : 1;
+        gap = std::clamp(at_kink * bend / sharp, is_junction(path, x) ? 1 : at_least, at_kink);
       }
+      places.push_back({x, gap});
+    }
+  return places;
+}
+
+/// The smallest distance of the outline from places inside of the rock, over their gap, and from segments along one of
+/// its sides. For a segment the distance of its farthest point counts, so that segments that cross a side are left out.
+/// Points on the outer boundary of the rock are left out, too.
+double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths,
+                    const std::vector<Avoided>& places) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const auto& [x, wanted] : places)
+    for (int k = 0; k < dimension; ++k) {
+      if (x[1 - k] < box.low[1 - k] || x[1 - k] > box.high[1 - k]) continue;
+      if (box.low[k] > rock.low[k]) gap = std::min(gap, std::abs(x[k] - box.low[k]) / wanted);
+      if (box.high[k] < rock.high[k]) gap = std::min(gap, std::abs(x[k] - box.high[k]) / wanted);
+    }
   for (const FracturePath& path : paths)
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
       for (int k = 0; k < dimension; ++k) {
@@ -185,6 +215,7 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
                        const std::vector<Point>* outline) {
   const Rectangle rock = bounds(mesh);
   const std::vector<FracturePath> paths = joined(separate_paths, same_place * (rock.high - rock.low).maxCoeff());
+  const std::vector<Avoided> places = outline ? std::vector<Avoided>() : avoided_places(paths);
   Rectangle box;
   double widest = -1;
   constexpr double more = 1 + 1e-9;  // exceeds rounding, so that domains of mirrored scenes are mirrored
@@ -194,7 +225,7 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
   for (double factor = 1; !outline && factor < largest_enlargement && widest * more < gap; factor += step) {
     const Point half = Point::Constant(0.5 * factor * size);
     const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
-    const double found = smallest_gap(larger, rock, paths);
+    const double found = smallest_gap(larger, rock, paths, places);
     if (found <= widest * more) continue;
     widest = found;
     box = larger;

@@ -47,13 +47,14 @@ struct FineDomain {
   bool is_last = true;         ///< whether the tip is the last point of that crack; else it is the first one
 };
 
-constexpr double largest_enlargement = 1.5;  ///< of the side of a fine level's square, to keep away from fractures
+constexpr double largest_enlargement = 2;  ///< of the side of a fine level's square, to keep away from fractures
 
 /// The domain of a fine level: a square of side `size` (m) around `center`, clipped by the box of the rock, with all
-/// paths in it. The outline keeps the distance `gap` (m) from tips, kinks, junctions and segments along a side: if
-/// necessary the square is larger, by less than `largest_enlargement` times; where no such square keeps the distance,
-/// the one with the largest distance is taken. `outline`: if given, the one of an earlier domain, which is kept.
-/// `coarse_walls`: how the walls of the coarse level are loaded; walls of added paths have tractions.
+/// paths in it. The outline keeps the distance `gap` (m) from tips, junctions and segments along a side, and from bends
+/// of paths up to four times as much, with the sine of the bend: if necessary the square is larger, by less than
+/// `largest_enlargement` times; where no such square keeps the distances, the one that comes nearest to it is taken.
+/// `outline`: if given, the one of an earlier domain, which is kept. `coarse_walls`: how the walls of the coarse level
+/// are loaded; walls of added paths have tractions.
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
                        double size, double gap, CrackPath::Walls coarse_walls,
                        const std::vector<Point>* outline = nullptr);

@@ -12,13 +12,14 @@ namespace sprekk::fine_fracture {
 void Tips::check_size(const Tip& tip) const {
   const double least = 2 * tip.coarse_size / largest_enlargement;
   if (options_.size >= least) return;
-  throw InputError(origin_,
-                   fmt::format("'size' of {} is {:.4g} m, and the mesh at the tip {} has edges of {:.4g} m", name(),
-                               options_.size, tip.name, tip.coarse_size),
-                   fmt::format("the square around a tip, enlarged by half, must reach one of them beyond it: 'size' is "
-                               "at least {:.4g} m; ten of them give factors within 1 %",
-                               least),
-                   "choose a larger 'size', or a smaller mesh.fracture_size");
+  throw InputError(
+      origin_,
+      fmt::format("'size' of {} is {:.4g} m, and the mesh at the tip {} has edges of {:.4g} m", name(), options_.size,
+                  tip.name, tip.coarse_size),
+      fmt::format("the square around a tip, made twice as wide, must reach one of them beyond it: 'size' is "
+                  "at least {:.4g} m; ten of them give factors within 1 %",
+                  least),
+      "choose a larger 'size', or a smaller mesh.fracture_size");
 }
 
 /// A path grows in the square before the coarse level takes it over. It ends before the sides of the rock.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/components/meshes.hpp"
 
@@ -256,21 +257,16 @@ TEST(FineDomain, WallsThatHaveBeenAddedFeelTractions) {
 
 double width(const FineDomain& domain) { return domain.geometry.outline[1][0] - domain.geometry.outline[0][0]; }
 
-TEST(FineDomain, KeepsItsOutlineAwayFromTipsAndKinks) {
+TEST(FineDomain, KeepsItsOutlineAwayFromTips) {
   for (const double away : {-0.009, -0.004, 0.0, 0.004, 0.009}) {
-    // The other end of the crack lies `away` outside of the square, or a kink of another fracture does.
-    const Mesh with_tip = rock_with({{Point(0.8 - away, 0.5), Point(1, 0.5)}});
-    const Mesh with_kink = rock_with(
-        {{Point(0.6, 0.5), Point(1, 0.5)}, {Point(1.2 + away, 0.6), Point(1.2 + away, 0.4), Point(1.4, 0.4)}});
-    for (const auto& [mesh, x] : {std::pair(&with_tip, 0.8 - away), std::pair(&with_kink, 1.2 + away)}) {
-      const FineDomain domain =
-          fine_domain(*mesh, paths_of(*mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
-      EXPECT_NO_THROW(validate(domain.geometry));
-      EXPECT_GE(std::abs(x - domain.geometry.outline[0][0]), gap);
-      EXPECT_GE(std::abs(x - domain.geometry.outline[1][0]), gap);
-      EXPECT_GT(width(domain), 0.4);
-      EXPECT_LT(width(domain), 0.4 + 2 * (2 * gap + 0.02 * 0.4));
-    }
+    // The other end of the crack lies `away` outside of the square.
+    const double x = 0.8 - away;
+    const Mesh mesh = rock_with({{Point(x, 0.5), Point(1, 0.5)}});
+    const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+    EXPECT_NO_THROW(validate(domain.geometry));
+    EXPECT_GE(std::abs(x - domain.geometry.outline[0][0]), gap);
+    EXPECT_GT(width(domain), 0.4);
+    EXPECT_LT(width(domain), 0.4 + 2 * (2 * gap + 0.02 * 0.4));
   }
   // With enough room the square is not made larger.
   for (const double away : {-0.011, 0.011}) {
@@ -278,6 +274,31 @@ TEST(FineDomain, KeepsItsOutlineAwayFromTipsAndKinks) {
     const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
     EXPECT_NEAR(width(domain), 0.4, rounding);
   }
+}
+
+TEST(FineDomain, KeepsItsOutlineFartherAwayFromSharperKinks) {
+  // A kink of another fracture lies `away` outside of the right side of the square. Its gap goes with the sine of the
+  // bend: 8 times that, and at most 4.
+  struct Case {
+    double degrees, gaps;
+  };
+  for (const auto& [degrees, gaps] :
+       {Case{90, 4}, Case{150, 4}, Case{30, 4}, Case{10, 8 * 0.17364817766693}, Case{1, 0.25}})
+    for (const double of_gap : {-0.95, -0.4, 0.0, 0.4, 0.95, 1.05})
+      for (const double turn : {-1.0, 1.0}) {
+        const double x = 1.2 + of_gap * gaps * gap, angle = degrees * std::numbers::pi / 180;
+        const Point kink(x, 0.5 + 0.05 * turn), arm = 0.1 * Point(std::cos(0.5 * angle), turn * std::sin(0.5 * angle));
+        const Mesh mesh =
+            rock_with({{Point(0.9, 0.5), Point(1, 0.5)}, {kink - arm, kink, kink + Point(arm[0], -arm[1])}});
+        const FineDomain domain =
+            fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+        EXPECT_NO_THROW(validate(domain.geometry));
+        EXPECT_GE(std::abs(x - domain.geometry.outline[1][0]), gaps * gap - rounding) << degrees << " " << of_gap;
+        if (std::abs(of_gap) > 1)
+          EXPECT_NEAR(width(domain), 0.4, rounding) << degrees;
+        else
+          EXPECT_GT(width(domain), 0.4) << degrees << " " << of_gap;
+      }
 }
 
 TEST(FineDomain, KeepsItsOutlineAwayFromFracturesThatRunAlongIt) {
@@ -301,8 +322,8 @@ TEST(FineDomain, KeepsItsOutlineAwayFromFracturesThatRunAlongIt) {
 }
 
 TEST(FineDomain, KeepsAsFarAwayAsItCan) {
-  // A zigzag with a kink every 12 mm leaves the square: no outline is a gap of 10 mm away from all of them. Squares
-  // grow by 4 mm a side, so that one is at least 4 mm away from the kinks on its both sides.
+  // A zigzag with a sharp kink every 12 mm leaves the square: no outline is 40 mm away from all of them. Squares grow
+  // by 4 mm a side, so that one is at least 4 mm away from the kinks on its both sides.
   std::vector<Point> zigzag;
   for (int i = 0; i <= 60; ++i) zigzag.push_back(Point(1 - 0.012 * i, 0.5 + (i % 2 == 0 ? 0 : 0.004)));
   const Mesh mesh = rock_with({zigzag});
