@@ -278,7 +278,6 @@ Vector BoundaryModel::jumps(const FineLoads& loads, const Given& given) const {
     for (int j = 0; j < n; ++j)
       units.block<2, 1>(2 * (contact.first_node + j), i) = hat(i % 2, element_places()[j]) * contact.traction;
   }
-  const Eigen::MatrixXd by_units = factorized_.solve_columns(units);
   const auto gaps = [&](const Vector& jumps, bool with_opening) {
     Vector gaps = Vector::Zero(count);
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -291,9 +290,12 @@ Vector BoundaryModel::jumps(const FineLoads& loads, const Given& given) const {
     }
     return gaps;
   };
+  const Vector gaps_without = gaps(without, true);
+  if (gaps_without.minCoeff() >= 0) return without;  // all open
+  const Eigen::MatrixXd by_units = factorized_.solve_columns(units);
   Eigen::MatrixXd compliance(count, count);
   for (Eigen::Index i = 0; i < count; ++i) compliance.col(i) = gaps(by_units.col(i), false);
-  return without + by_units * contact_forces(compliance, gaps(without, true));
+  return without + by_units * contact_forces(compliance, gaps_without);
 }
 
 TipFactors BoundaryModel::factors(const FineLoads& loads, const Given& given, const Vector& jumps) const {

@@ -70,12 +70,14 @@ Vector SlidingContact::unit_force(int at) const {
 
 Vector SlidingContact::displacement(
     const Vector& without, const std::function<Eigen::MatrixXd(const Eigen::MatrixXd& forces)>& responses) const {
+  const Vector gaps_without = gaps(without, true);
+  if (gaps_without.minCoeff() >= 0) return Vector::Zero(without.size());  // all open
   Eigen::MatrixXd units(without.size(), count_);
   for (int j = 0; j < count_; ++j) units.col(j) = unit_force(j);
   const Eigen::MatrixXd by_units = responses(units);
   Eigen::MatrixXd compliance(count_, count_);
   for (int j = 0; j < count_; ++j) compliance.col(j) = gaps(by_units.col(j), false);
-  return by_units * contact_forces(compliance, gaps(without, true));
+  return by_units * contact_forces(compliance, gaps_without);
 }
 
 }  // namespace sprekk::fine_fracture
