@@ -29,6 +29,7 @@ class Fluid : public TipSurroundings {
   double pressure[2] = {0, 0};  ///< at the first and the last end
   double risen[2] = {0, 0};     ///< in the step
   double jump[2] = {1, 1};      ///< m
+  std::optional<Sliding> law;   ///< of all walls
   std::uint64_t state = 1;
 
   void update() override {}
@@ -42,6 +43,7 @@ class Fluid : public TipSurroundings {
   BodyForces body_forces(const std::vector<Point>&) const override { return {}; }
   bool gives_jumps() const override { return false; }
   Point wall_traction(int, double) const override { return Point::Zero(); }
+  std::optional<Sliding> sliding(int, double) const override { return law; }
   Point wall_jump(int, double) const override { return Point::Zero(); }
   double fluid_pressure(int, bool at_end) const override { return pressure[at_end]; }
   double accepted_fluid_pressure(int, bool at_end) const override { return pressure[at_end] - risen[at_end]; }
@@ -125,6 +127,36 @@ TEST(Tips, GrownWallsCarryThePressureOfTheirOwnEnd) {
       // A crack that is held at 20 times its half-length: 1 % at most.
       EXPECT_NEAR(setting.quantity("main_first.K_I") / (1e6 * own + 3e6 * other), 1, 0.01) << angle;
       EXPECT_NEAR(setting.quantity("main_last.K_I") / (3e6 * own + 1e6 * other), 1, 0.01) << angle;
+    }
+}
+
+// A law by which the force between touching walls would pull them together has no state where the walls overlap.
+TEST(Tips, TakeTheTractionsOfTheCoarseLevelWhereTheLawOfTheWallsHasNoState) {
+  for (const bool is_reversed : {false, true})
+    for (const double angle : {0.0, 0.6, 0.6 + 1e-9}) {
+      double factor[3];
+      for (const int law : {0, 1, 2}) {
+        Setting setting(angle, is_reversed);
+        // From plus, to the left of the path, to minus.
+        const Point normal(setting.along[1], -setting.along[0]);
+        // 0: walls keep the tractions of the coarse level, which are zero here. 1: without friction, and apart by less
+        // than they open. 2: what touches is pulled together, and there is a gap to be closed everywhere.
+        if (law == 1) setting.fluid.law = TipSurroundings::Sliding{Point::Zero(), normal, normal, -1e-2};
+        if (law == 2) setting.fluid.law = TipSurroundings::Sliding{Point::Zero(), -normal, normal, 1e-2};
+        setting.fluid.pressure[0] = setting.fluid.pressure[1] = 1e6;
+        setting.grow(0.2, true, true);
+        setting.tips.examine({});
+        factor[law] = setting.quantity("main_first.K_I");
+        Notes notes;
+        setting.tips.note_step(notes, {});
+        const bool is_told = std::ranges::any_of(notes.all(), [](const Notes::Note& note) {
+          return note.topic == "no state of contact around tips.main_first";
+        });
+        EXPECT_EQ(is_told, law == 2) << law;
+      }
+      EXPECT_GT(factor[0], 0);
+      EXPECT_NEAR(factor[1], factor[0], 1e-9 * factor[0]);
+      EXPECT_NEAR(factor[2], factor[0], 1e-9 * factor[0]);
     }
 }
 
