@@ -96,11 +96,23 @@ void BlockCholesky::invert(int column, const Block& pivot, const Block& diagonal
   inverse_[column] /= a * rest;
 }
 
-BlockCholesky::Columns BlockCholesky::solve_all(Columns b) const {
-  SPREKK_EXPECT(b.rows() == 2 * static_cast<Eigen::Index>(inverse_.size()), b.rows(), inverse_.size());
-  SPREKK_EXPECT(is_finite(b.reshaped()), b.rows());
+BlockCholesky::Columns BlockCholesky::solve_within(const std::vector<int>& blocks, const Columns& b) const {
   const int n = static_cast<int>(inverse_.size());
+  SPREKK_EXPECT(are_indices(blocks, n), n);
+  SPREKK_EXPECT(b.rows() == 2 * static_cast<Eigen::Index>(blocks.size()), b.rows(), blocks.size());
+  SPREKK_EXPECT(is_finite(b.reshaped()), b.rows());
+  // The blocks on the way up the tree, ascending, and the place of each in x.
+  std::vector<int> reached, place(n, none);
+  for (const int block : blocks)
+    for (int i = block; i != none && place[i] == none; i = parent_[i]) {
+      place[i] = 0;
+      reached.push_back(i);
+    }
+  std::ranges::sort(reached);
+  for (std::size_t k = 0; k < reached.size(); ++k) place[reached[k]] = static_cast<int>(k);
   const Eigen::Index width = b.cols();
+  Columns x = Columns::Zero(2 * static_cast<Eigen::Index>(reached.size()), width);
+  for (std::size_t k = 0; k < blocks.size(); ++k) x.middleRows<2>(2 * place[blocks[k]]) += b.middleRows<2>(2 * k);
   // y -= block x, for two rows of all columns.
   const auto subtract = [width](const Block& block, const double* x, double* y) {
     const double a = block(0, 0), c = block(0, 1), d = block(1, 0), e = block(1, 1);
@@ -109,14 +121,17 @@ BlockCholesky::Columns BlockCholesky::solve_all(Columns b) const {
       y[width + k] -= d * x[k] + e * x[width + k];
     }
   };
-  const auto rows = [&b](int block) { return b.data() + 2 * block * b.cols(); };
-  for (int i = 0; i < n; ++i)
+  const auto rows = [&](int block) { return x.data() + 2 * place[block] * width; };
+  for (const int i : reached)
     for (int p = starts_[i]; p < starts_[i + 1]; ++p) subtract(lower_[p], rows(i), rows(rows_[p]));
-  for (int i = n - 1; i >= 0; --i) {
-    b.middleRows<2>(2 * i) = (inverse_[i] * b.middleRows<2>(2 * i)).eval();
+  for (auto k = reached.rbegin(); k != reached.rend(); ++k) {
+    const int i = *k;
+    x.middleRows<2>(2 * place[i]) = (inverse_[i] * x.middleRows<2>(2 * place[i])).eval();
     for (int p = starts_[i]; p < starts_[i + 1]; ++p) subtract(lower_[p].transpose(), rows(rows_[p]), rows(i));
   }
-  return b;
+  Columns found(b.rows(), width);
+  for (std::size_t k = 0; k < blocks.size(); ++k) found.middleRows<2>(2 * k) = x.middleRows<2>(2 * place[blocks[k]]);
+  return found;
 }
 
 Vector BlockCholesky::solve(Vector b) const {

@@ -110,16 +110,29 @@ Vector FineModel::back_solve(const Vector& b) const {
   return x;
 }
 
-Eigen::MatrixXd FineModel::responses(const Eigen::MatrixXd& forces) const {
-  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(unknowns_.count(), forces.cols());
-  for (int i = 0; i < forces.rows(); ++i)
-    if (unknowns_.of(i) != none) b.row(unknowns_.of(i)) += forces.row(i);
+Eigen::MatrixXd FineModel::responses_within(const std::vector<int>& components, const Eigen::MatrixXd& forces) const {
   const ScopedTimer timer(*profile_, "back-solves");
-  const Eigen::MatrixXd x = factors_.solve_all(b);
-  if (!x.allFinite()) throw std::runtime_error("fine level: the displacements are not finite");
+  std::vector<int> unknowns;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (unknowns_.of(components[i]) == none) continue;
+    unknowns.push_back(unknowns_.of(components[i]));
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
-  for (int i = 0; i < u.rows(); ++i)
-    if (unknowns_.of(i) != none) u.row(i) = x.row(unknowns_.of(i));
+  u(rows, Eigen::all) = factors_.solve_within(unknowns, forces(rows, Eigen::all));
+  if (!u.allFinite()) throw std::runtime_error("fine level: the displacements are not finite");
+  return u;
+}
+
+Vector FineModel::response(const std::vector<int>& components, const Vector& forces) const {
+  Vector b = Vector::Zero(unknowns_.count());
+  for (std::size_t i = 0; i < components.size(); ++i)
+    if (unknowns_.of(components[i]) != none) b[unknowns_.of(components[i])] += forces[i];
+  const Vector x = back_solve(b);
+  Vector u = Vector::Zero(2 * mesh_->node_count());
+  for (int i = 0; i < u.size(); ++i)
+    if (unknowns_.of(i) != none) u[i] = x[unknowns_.of(i)];
   return u;
 }
 
@@ -142,8 +155,10 @@ FineSolution FineModel::solve(const FineLoads& loads) const {
   }
   if (loads.sliding) {
     const SlidingContact contact(*mesh_, loads);
-    const auto by = [this](const Eigen::MatrixXd& forces) { return responses(forces); };
-    if (!contact.is_empty()) u += contact.displacement(u, by);
+    const std::vector<int>& at = contact.components();
+    const auto within = [&](const Eigen::MatrixXd& forces) { return responses_within(at, forces); };
+    const std::optional<Vector> forces = contact.is_empty() ? std::nullopt : contact.forces(u, within);
+    if (forces) u += response(at, *forces);
   }
   const ScopedTimer timer(*profile_, "factors");
   Eigen::Index first = static_cast<Eigen::Index>(volume_forces_.places().size());

@@ -44,8 +44,11 @@ class FineModel {
   Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Eigen::Matrix2Xd& body_forces,
                          const Vector& u) const;
   Vector back_solve(const Vector& b) const;
-  /// The displacements by nodal forces alone, where nothing is prescribed; a column each.
-  Eigen::MatrixXd responses(const Eigen::MatrixXd& forces) const;
+  /// The displacements by forces in some components (2 node + direction) alone, where nothing is prescribed: in these
+  /// components, a row each.
+  Eigen::MatrixXd responses_within(const std::vector<int>& components, const Eigen::MatrixXd& forces) const;
+  /// The same for one set of forces, in all nodes.
+  Vector response(const std::vector<int>& components, const Vector& forces) const;
 
   std::shared_ptr<Profile> profile_;
   FineGeometry geometry_;

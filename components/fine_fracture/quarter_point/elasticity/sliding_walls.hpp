@@ -20,23 +20,29 @@ class SlidingContact {
  public:
   SlidingContact(const FineMesh& mesh, const FineLoads& loads);
   bool is_empty() const { return count_ == 0; }
-  /// The displacement by the tractions that close the gaps, (x, y) per node, m. `without`: that without these;
-  /// `responses`: the displacements by nodal forces alone, a column each. Throws std::runtime_error where no state is
-  /// found.
-  Vector displacement(const Vector& without,
-                      const std::function<Eigen::MatrixXd(const Eigen::MatrixXd& forces)>& responses) const;
+  /// The components of displacements (2 node + direction) on both walls.
+  const std::vector<int>& components() const { return components_; }
+  /// The nodal forces in these components (N/m) by the tractions that close the gaps; nothing where all walls part.
+  /// `without`: the displacement without these, (x, y) per node, m; `responses`: the displacements in the components by
+  /// nodal forces in them, a column each. Throws UnsolvedGrowth where no state is found.
+  std::optional<Vector> forces(const Vector& without,
+                               const std::function<Eigen::MatrixXd(const Eigen::MatrixXd& forces)>& responses) const;
 
  private:
   struct Edge {
     const FineMesh::WallEdge* edge;
-    std::array<int, 2> places;  ///< of its ends, in f
+    std::array<int, 2> places;                ///< of its ends, in f
+    std::array<std::array<int, 3>, 2> nodes;  ///< by Wall: the first of the two components of each, in components_
     TipSurroundings::Sliding law;
   };
+  /// The gaps by displacements in the components.
   Vector gaps(const Vector& displacement, bool with_opening) const;
-  Vector unit_force(int place) const;
+  /// The nodal forces of f = 1 at each place, a column each.
+  Eigen::MatrixXd unit_forces() const;
 
   const FineMesh& mesh_;
   std::vector<Edge> edges_;
+  std::vector<int> components_;
   int count_ = 0;
 };
 

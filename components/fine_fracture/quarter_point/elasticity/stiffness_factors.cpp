@@ -201,12 +201,21 @@ StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknown
   }
 }
 
-Eigen::MatrixXd StiffnessFactors::solve_all(const Eigen::MatrixXd& b) const {
-  SPREKK_EXPECT(b.rows() == static_cast<Eigen::Index>(place_.size()), b.rows(), place_.size());
-  BlockCholesky::Columns placed = BlockCholesky::Columns::Zero(2 * block_count_, b.cols());
-  placed(place_, Eigen::all) = b;
-  placed = factors_->solve_all(std::move(placed));
-  return placed(place_, Eigen::all);
+Eigen::MatrixXd StiffnessFactors::solve_within(const std::vector<int>& unknowns, const Eigen::MatrixXd& b) const {
+  SPREKK_EXPECT(b.rows() == static_cast<Eigen::Index>(unknowns.size()), b.rows(), unknowns.size());
+  std::vector<int> blocks;
+  for (const int unknown : unknowns) blocks.push_back(place_[unknown] / 2);
+  std::ranges::sort(blocks);
+  blocks.erase(std::ranges::unique(blocks).begin(), blocks.end());
+  std::vector<Eigen::Index> rows;
+  for (const int unknown : unknowns) {
+    const auto block = std::ranges::lower_bound(blocks, place_[unknown] / 2) - blocks.begin();
+    rows.push_back(2 * block + place_[unknown] % 2);
+  }
+  BlockCholesky::Columns placed = BlockCholesky::Columns::Zero(2 * static_cast<Eigen::Index>(blocks.size()), b.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) placed.row(rows[i]) += b.row(i);
+  placed = factors_->solve_within(blocks, placed);
+  return placed(rows, Eigen::all);
 }
 
 Vector StiffnessFactors::solve(const Vector& b) const {

@@ -23,8 +23,8 @@ class StiffnessFactors {
   StiffnessFactors(const FineMesh& mesh, const Unknowns& unknowns, const std::vector<ElementMatrix>& stiffness,
                    Profile& profile);
   Vector solve(const Vector& b) const;
-  /// The solutions for all columns at once.
-  Eigen::MatrixXd solve_all(const Eigen::MatrixXd& b) const;
+  /// The solutions in some unknowns, for right-hand sides that are zero in all others: a row for each of `unknowns`.
+  Eigen::MatrixXd solve_within(const std::vector<int>& unknowns, const Eigen::MatrixXd& b) const;
 
  private:
   int block_count_ = 0;

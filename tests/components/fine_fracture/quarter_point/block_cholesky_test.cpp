@@ -51,17 +51,23 @@ TEST(BlockCholesky, SolvesWhatADenseFactorizationSolves) {
   EXPECT_LT((x - expected).norm(), 1e-12 * expected.norm());
 }
 
-TEST(BlockCholesky, SolvesAllColumnsAsEachAlone) {
+TEST(BlockCholesky, SolvesWithinBlocksAsInAll) {
   const Springs springs(60, 0.3);
   const BlockCholesky factors(springs.blocks);
-  for (const int columns : {0, 1, 5}) {
-    const Eigen::MatrixXd b =
-        Eigen::MatrixXd::NullaryExpr(120, columns, [](Eigen::Index i, Eigen::Index j) { return std::sin(7. * i + j); });
-    const Eigen::MatrixXd x = factors.solve_all(b);
-    ASSERT_EQ(x.cols(), columns);
-    for (int j = 0; j < columns; ++j)
-      EXPECT_LT((x.col(j) - springs.dense.llt().solve(b.col(j))).norm(), 1e-12 * x.col(j).norm());
-  }
+  for (const std::vector<int>& blocks : {std::vector{59}, {0}, {3, 17, 18, 44}, {44, 3}, {}})
+    for (const int columns : {0, 1, 5}) {
+      std::vector<int> rows;
+      for (const int block : blocks) rows.insert(rows.end(), {2 * block, 2 * block + 1});
+      const auto count = static_cast<Eigen::Index>(rows.size());
+      const BlockCholesky::Columns b = Eigen::MatrixXd::NullaryExpr(
+          count, columns, [](Eigen::Index i, Eigen::Index j) { return std::sin(7. * i + j + 1); });
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(120, columns);
+      all(rows, Eigen::all) = b;
+      const Eigen::MatrixXd x = factors.solve_within(blocks, b), expected = springs.dense.llt().solve(all);
+      ASSERT_EQ(x.rows(), count);
+      ASSERT_EQ(x.cols(), columns);
+      EXPECT_LE((x - expected(rows, Eigen::all)).norm(), 1e-12 * expected.norm());
+    }
 }
 
 TEST(BlockCholesky, SolvesASingleBlock) {
