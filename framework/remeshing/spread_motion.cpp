@@ -2,7 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
@@ -25,10 +25,10 @@ std::vector<Point> spread_motion(const std::vector<Point>& nodes, const std::vec
     if (!is_given[node]) unknown[node] = count++;
   if (count == 0 || moved.empty()) return motion;
 
-  const auto distance_to_moved = [&](const Point& x) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& [node, by] : moved) least = std::min(least, (x - nodes[node]).norm());
-    return least;
+  Eigen::Array<double, Eigen::Dynamic, dimension> moving(moved.size(), dimension);
+  for (std::size_t i = 0; i < moved.size(); ++i) moving.row(i) = nodes[moved[i].node].transpose().array();
+  const auto distance_to_moved = [&moving](const Point& x) {
+    return std::sqrt((moving.rowwise() - x.transpose().array()).square().rowwise().sum().minCoeff());
   };
   using Matrix = Eigen::SparseMatrix<double>;
   std::vector<Triplet> entries;
