@@ -58,6 +58,9 @@ Vector traction_forces(const FineGeometry& geometry, const FineMesh& mesh, const
 
 VolumeForces::VolumeForces(const FineMesh& mesh, const FineRock& rock) {
   constexpr int degree = 4, along_rays = 3, across = 4;
+  const std::size_t likely = triangle_rule(degree).size() * mesh.elements.size();
+  places_.reserve(likely);
+  shares_.reserve(likely);
   for (const FineMesh::Element& element : mesh.elements) {
     for (const TrianglePoint& place :
          element.tip == none ? element_rule(mesh, element, rock, degree) : polar_rule(along_rays, across)) {
