@@ -1,4 +1,6 @@
 // The state of the tips with which the search for a front begins, and the speeds that it expects.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -129,18 +131,27 @@ void TipsFront::add(Tips::Tip& tip) {
   states_.push_back(state);
 }
 
-/// The rock that is left between a blocked tip and another fracture breaks at once.
+/// The rock that is left between a blocked tip and another fracture breaks at once. Other blocked tips stop for good.
 void TipsFront::find_joinings() {
   std::vector<std::pair<int, int>> joined;
   for (std::size_t i = 0; i < tips_.tips_.size(); ++i) {
-    if (!is_blocked_[i] || tips_.options_.meeting != "join") continue;
+    if (!is_blocked_[i]) continue;
     Tips::Tip& tip = tips_.tips_[i];
-    TipOutcome outcome;
-    outcome.ahead = tips_.direction(tip);
-    const auto joining = tips_.find_joining(tip, outcome, joinings_, joined);
-    if (!joining) continue;
-    joined.emplace_back(tip.end.fracture, joining->other);
-    joinings_.push_back(joining->extension);
+    if (tips_.options_.meeting == "join") {
+      TipOutcome outcome;
+      outcome.ahead = tips_.direction(tip);
+      if (const auto joining = tips_.find_joining(tip, outcome, joinings_, joined)) {
+        joined.emplace_back(tip.end.fracture, joining->other);
+        joinings_.push_back(joining->extension);
+        continue;
+      }
+    }
+    const std::string name = tips_.name() + "." + tip.name;
+    notes_.push_back({name + " is stopped at an obstacle",
+                      fmt::format("{} stops at K_eq/K_IC = {:.4g} (the boundary or a fracture is too near ahead) it "
+                                  "grows no more",
+                                  name, tip.now.load),
+                      tip.now.load});
   }
 }
 

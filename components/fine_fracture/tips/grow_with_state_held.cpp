@@ -27,11 +27,16 @@ bool Tips::is_near(const Tip& tip, const Tip& other) const {
          (position(tip, tip.now.path) - position(other, other.now.path)).norm() < far * options_.growth.increment;
 }
 
+/// A step towards `to` ends an edge of the coarse level before it would meet anything: only so far it may come too near
+/// to something beside it.
 double Tips::free_distance(const Tip& tip, const TipPath& path, const Point& to) const {
-  const Point from = position(tip, path);
-  if (comes_too_near(mesh_, tip.end.fracture, position(tip, {}), from, to, cavity().size)) return 0;
-  const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, to - from);
-  return free.length - tip.coarse_size;
+  const Point from = position(tip, path), way = to - from;
+  const sprekk::FreeLength free = sprekk::free_length(mesh_, tip.end.fracture, tip.end.at_end, from, way);
+  const double length = free.length - tip.coarse_size;
+  if (!(length > 0)) return 0;
+  const Point end = from + std::min(1.0, length / way.norm()) * way;
+  if (comes_too_near(mesh_, tip.end.fracture, position(tip, {}), from, end, cavity().size)) return 0;
+  return length;
 }
 
 /// m, of a path that is passed to the coarse level.
