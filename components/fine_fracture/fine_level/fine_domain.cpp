@@ -120,14 +120,14 @@ Point snapped(const Rectangle& box, Point x) {
   return x;
 }
 
-/// A place from which the outline keeps away, and how far, over the distance from a tip.
+/// A place from which the outline keeps away.
 struct Avoided {
   Point position;  ///< m
-  double gap;
+  double share;    ///< of the distance that it keeps from a tip
 };
 
-/// All ends, junctions and bends. Jumps vary as fast beside a sharp kink as beside a tip, and on both sides of it;
-/// beside a slight bend they hardly vary.
+/// All ends, junctions and bends. Displacements of the coarse level vary within a cell on both sides of a sharp kink;
+/// beside a slight bend they hardly do. The coarse level does not know the bends of added paths.
 std::vector<Avoided> avoided_places(const std::vector<FracturePath>& paths) {
   constexpr double at_kink = 4, at_least = 0.25;
   constexpr double sharp = 0.5;  // the sine of a bend
@@ -139,28 +139,29 @@ std::vector<Avoided> avoided_places(const std::vector<FracturePath>& paths) {
   for (const FracturePath& path : paths)
     for (std::size_t i = 0; i < path.points.size(); ++i) {
       const Point& x = path.points[i];
-      double gap = 1;
-      if (i > 0 && i + 1 < path.points.size()) {
+      double share = 1;
+      if (path.arc[i] > 0 && path.arc[i] < path.length) {
         const Point before = (x - path.points[i - 1]).normalized(), after = (path.points[i + 1] - x).normalized();
         const double bend = before.dot(after) > 0 ? std::abs(cross(before, after)) : 1;
-        gap = std::clamp(at_kink * bend / sharp, is_junction(path, x) ? 1 : at_least, at_kink);
+        share = std::clamp(at_kink * bend / sharp, is_junction(path, x) ? 1 : at_least, at_kink);
       }
-      places.push_back({x, gap});
+      places.push_back({x, share});
     }
   return places;
 }
 
-/// The smallest distance of the outline from places inside of the rock, over their gap, and from segments along one of
-/// its sides. For a segment the distance of its farthest point counts, so that segments that cross a side are left out.
-/// Points on the outer boundary of the rock are left out, too.
+/// The smallest distance of the outline from places inside of the rock, over their share, and from segments along one
+/// of its sides. For a segment the distance of its farthest point counts, so that segments that cross a side are left
+/// out. Points on the outer boundary of the rock are left out, too.
 double smallest_gap(const Rectangle& box, const Rectangle& rock, const std::vector<FracturePath>& paths,
                     const std::vector<Avoided>& places) {
   double gap = std::numeric_limits<double>::infinity();
-  for (const auto& [x, wanted] : places)
+  for (const auto& [x, share] : places)
     for (int k = 0; k < dimension; ++k) {
-      if (x[1 - k] < box.low[1 - k] || x[1 - k] > box.high[1 - k]) continue;
-      if (box.low[k] > rock.low[k]) gap = std::min(gap, std::abs(x[k] - box.low[k]) / wanted);
-      if (box.high[k] < rock.high[k]) gap = std::min(gap, std::abs(x[k] - box.high[k]) / wanted);
+      // Beyond the ends of the sides normal to axis k.
+      const double beside = std::max({box.low[1 - k] - x[1 - k], x[1 - k] - box.high[1 - k], 0.0});
+      if (box.low[k] > rock.low[k]) gap = std::min(gap, std::max(beside, std::abs(x[k] - box.low[k])) / share);
+      if (box.high[k] < rock.high[k]) gap = std::min(gap, std::max(beside, std::abs(x[k] - box.high[k])) / share);
     }
   for (const FracturePath& path : paths)
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i)

@@ -132,7 +132,7 @@ void TipsFront::add(Tips::Tip& tip) {
 }
 
 /// The rock that is left between a blocked tip and another fracture breaks at once. Other blocked tips stop for good.
-void TipsFront::find_joinings() {
+void TipsFront::end_blocked() {
   std::vector<std::pair<int, int>> joined;
   for (std::size_t i = 0; i < tips_.tips_.size(); ++i) {
     if (!is_blocked_[i]) continue;
@@ -148,8 +148,8 @@ void TipsFront::find_joinings() {
     }
     const std::string name = tips_.name() + "." + tip.name;
     notes_.push_back({name + " is stopped at an obstacle",
-                      fmt::format("{} stops at K_eq/K_IC = {:.4g} (the boundary or a fracture is too near ahead) it "
-                                  "grows no more",
+                      fmt::format("{} stops at K_eq/K_IC = {:.4g} (the boundary or a fracture is too near ahead), "
+                                  "and grows no more",
                                   name, tip.now.load),
                       tip.now.load});
   }

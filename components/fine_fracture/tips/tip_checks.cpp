@@ -16,7 +16,7 @@ void Tips::check_size(const Tip& tip) const {
       origin_,
       fmt::format("'size' of {} is {:.4g} m, and the mesh at the tip {} has edges of {:.4g} m", name(), options_.size,
                   tip.name, tip.coarse_size),
-      fmt::format("the square around a tip, made twice as wide, must reach one of them beyond it: 'size' is "
+      fmt::format("the square around a tip, made up to twice as wide, must reach one of them beyond it: 'size' is "
                   "at least {:.4g} m; ten of them give factors within 1 %",
                   least),
       "choose a larger 'size', or a smaller mesh.fracture_size");

@@ -146,7 +146,7 @@ FineRock Tips::rock_around(const Point& center) const {
   // Of rock whose stiffness differs from cell to cell there are too many to cut elements along them.
   constexpr std::size_t most_borders = 200;
   std::vector<FineRock::Border> borders;
-  const double reach = largest_enlargement * options_.size;
+  const double reach = 0.5 * largest_enlargement * options_.size;
   for (const FineRock::Border& border : surroundings_->stiffness_borders()) {
     const Point low = border[0].cwiseMin(border[1]) - center, high = border[0].cwiseMax(border[1]) - center;
     if (low.maxCoeff() <= reach && high.minCoeff() >= -reach) borders.push_back(border);

@@ -25,7 +25,7 @@ TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goe
     : tips_(tips), dt_(step.dt), may_shrink_(may_shrink), goes_on_(goes_on) {
   for (Tips::Tip& tip : tips_.tips_) add(tip);
   expect_speeds();
-  find_joinings();
+  end_blocked();
   options_.increment = tips_.options_.growth.increment;
   options_.shortest = tips_.options_.growth.smallest_length();
   options_.load_tolerance = tips_.options_.growth.front_tolerance;

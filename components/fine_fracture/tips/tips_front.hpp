@@ -46,7 +46,7 @@ class TipsFront : public FrontSearch {
   double speed(std::size_t tip) const;
   void expect_speeds();
   void add(Tips::Tip& tip);
-  void find_joinings();
+  void end_blocked();
   void propose();
   Tips::Tip* same_tip(Tips& there, int tip) const;
   std::vector<PlaceOnWay> way_to(const Tips& there, const Tips::Tip& tip, const std::vector<PlaceOnWay>& before) const;

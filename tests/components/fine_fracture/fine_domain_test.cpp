@@ -301,6 +301,26 @@ TEST(FineDomain, KeepsItsOutlineFartherAwayFromSharperKinks) {
       }
 }
 
+TEST(FineDomain, KeepsItsCornersAwayFromKinks) {
+  // The kink lies beyond a corner of the square, on the line through both.
+  for (const double gaps : {0.1, 2.0, 3.9, 4.1})
+    for (const double mirrored : {1.0, -1.0}) {
+      const double away = gaps * gap;
+      const Point kink(1.2 + away, 0.5 + mirrored * (0.2 + away));
+      const Mesh mesh =
+          rock_with({{Point(0.9, 0.5), Point(1, 0.5)}, {kink + Point(0.1, 0), kink, kink + Point(0, 0.1 * mirrored)}});
+      const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, Point(1, 0.5), 0.4, gap, Walls::traction);
+      EXPECT_NO_THROW(validate(domain.geometry));
+      if (gaps > 4) {
+        EXPECT_NEAR(width(domain), 0.4, rounding);
+        continue;
+      }
+      EXPECT_GT(width(domain), 0.4) << gaps;
+      const Point corner(domain.geometry.outline[1][0], 0.5 + 0.5 * mirrored * width(domain));
+      EXPECT_GE((kink - corner).cwiseAbs().maxCoeff(), 4 * gap - rounding) << gaps;
+    }
+}
+
 TEST(FineDomain, KeepsItsOutlineAwayFromFracturesThatRunAlongIt) {
   for (const double away : {-0.009, -1e-6, 0.0, 1e-6, 0.009}) {
     // Past both ends of the lower side of the square, and of the left one.
@@ -334,7 +354,7 @@ TEST(FineDomain, KeepsAsFarAwayAsItCan) {
     double nearest = gap;
     for (const Point& x : zigzag) nearest = std::min(nearest, std::abs(x[0] - domain.geometry.outline[0][0]));
     EXPECT_GE(nearest, 0.004 - rounding);
-    EXPECT_LT(width(domain), 1.5 * 0.4);
+    EXPECT_LT(width(domain), largest_enlargement * 0.4);
   }
 }
 

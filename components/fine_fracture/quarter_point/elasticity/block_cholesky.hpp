@@ -29,8 +29,9 @@ class BlockCholesky {
   explicit BlockCholesky(const BlockMatrix& matrix);
   /// Solves A x = b; two values for each block.
   Vector solve(Vector b) const;
-  /// Solves for all columns at once, where b is zero but in some blocks, and the solution is wanted in these alone: two
-  /// rows of b and of the result for each of `blocks`. Only the columns of L on their paths up the tree take part.
+  /// Solves for all columns at once, where b is zero outside of some blocks, and the solution is wanted in these alone:
+  /// two rows of b and of the result for each of `blocks`; rows of b for the same block add up. Only the columns of L
+  /// on their paths up the tree take part.
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Columns solve_within(const std::vector<int>& blocks, const Columns& b) const;
 

@@ -1,7 +1,9 @@
 // Walls that slide and part on the fine level.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "components/fine_fracture/fine_level/loads.hpp"

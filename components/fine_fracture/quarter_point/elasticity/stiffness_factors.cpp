@@ -203,6 +203,7 @@ StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknown
 
 Eigen::MatrixXd StiffnessFactors::solve_within(const std::vector<int>& unknowns, const Eigen::MatrixXd& b) const {
   SPREKK_EXPECT(b.rows() == static_cast<Eigen::Index>(unknowns.size()), b.rows(), unknowns.size());
+  SPREKK_EXPECT(are_indices(unknowns, static_cast<long>(place_.size())), place_.size());
   std::vector<int> blocks;
   for (const int unknown : unknowns) blocks.push_back(place_[unknown] / 2);
   std::ranges::sort(blocks);

@@ -24,6 +24,7 @@ class StiffnessFactors {
                    Profile& profile);
   Vector solve(const Vector& b) const;
   /// The solutions in some unknowns, for right-hand sides that are zero in all others: a row for each of `unknowns`.
+  /// Rows of b for the same unknown add up.
   Eigen::MatrixXd solve_within(const std::vector<int>& unknowns, const Eigen::MatrixXd& b) const;
 
  private:

@@ -11,23 +11,25 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-/// The stiffness of springs in a plane: between each block and some of those before it, and to the ground.
+/// The stiffness of springs in a plane: between each block and some of those before it, and to the ground. As a tree,
+/// each but the last has a spring to one later block, and two blocks share that one: so does the elimination tree.
 struct Springs {
   Eigen::MatrixXd dense;
   BlockMatrix blocks;
 
-  Springs(int count, double to_ground) : dense(Eigen::MatrixXd::Zero(2 * count, 2 * count)) {
+  Springs(int count, double to_ground, bool is_tree = false) : dense(Eigen::MatrixXd::Zero(2 * count, 2 * count)) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> entry(-1, 1);
     std::uniform_int_distribution<int> any(0, count - 1);
     dense.diagonal().setConstant(to_ground);
     for (int b = 1; b < count; ++b) {
-      for (const int other : {b - 1, any(random) % b, any(random) % b}) {
+      for (const int other : is_tree ? std::vector{b / 2} : std::vector{b - 1, any(random) % b, any(random) % b}) {
         Eigen::Matrix2d half;
         half << entry(random), entry(random), entry(random), entry(random);
         const Eigen::Matrix2d spring = half * half.transpose() + 0.1 * Eigen::Matrix2d::Identity();
+        const int one = is_tree ? count - 1 - b : b, two = is_tree ? count - 1 - other : other;
         for (const auto& [i, j, sign] :
-             {std::tuple{b, b, 1.0}, {other, other, 1.0}, {b, other, -1.0}, {other, b, -1.0}})
+             {std::tuple{one, one, 1.0}, {two, two, 1.0}, {one, two, -1.0}, {two, one, -1.0}})
           dense.block<2, 2>(2 * i, 2 * j) += sign * spring;
       }
     }
@@ -52,22 +54,24 @@ TEST(BlockCholesky, SolvesWhatADenseFactorizationSolves) {
 }
 
 TEST(BlockCholesky, SolvesWithinBlocksAsInAll) {
-  const Springs springs(60, 0.3);
-  const BlockCholesky factors(springs.blocks);
-  for (const std::vector<int>& blocks : {std::vector{59}, {0}, {3, 17, 18, 44}, {44, 3}, {}})
-    for (const int columns : {0, 1, 5}) {
-      std::vector<int> rows;
-      for (const int block : blocks) rows.insert(rows.end(), {2 * block, 2 * block + 1});
-      const auto count = static_cast<Eigen::Index>(rows.size());
-      const BlockCholesky::Columns b = Eigen::MatrixXd::NullaryExpr(
-          count, columns, [](Eigen::Index i, Eigen::Index j) { return std::sin(7. * i + j + 1); });
-      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(120, columns);
-      all(rows, Eigen::all) = b;
-      const Eigen::MatrixXd x = factors.solve_within(blocks, b), expected = springs.dense.llt().solve(all);
-      ASSERT_EQ(x.rows(), count);
-      ASSERT_EQ(x.cols(), columns);
-      EXPECT_LE((x - expected(rows, Eigen::all)).norm(), 1e-12 * expected.norm());
-    }
+  for (const bool is_tree : {false, true}) {
+    const Springs springs(60, 0.3, is_tree);
+    const BlockCholesky factors(springs.blocks);
+    for (const std::vector<int>& blocks : {std::vector{59}, {0}, {3, 17, 18, 44}, {44, 3}, {44, 3, 44}, {}})
+      for (const int columns : {0, 1, 5}) {
+        std::vector<int> rows;
+        for (const int block : blocks) rows.insert(rows.end(), {2 * block, 2 * block + 1});
+        const auto count = static_cast<Eigen::Index>(rows.size());
+        const BlockCholesky::Columns b = Eigen::MatrixXd::NullaryExpr(
+            count, columns, [](Eigen::Index i, Eigen::Index j) { return std::sin(7. * i + j + 1); });
+        Eigen::MatrixXd all = Eigen::MatrixXd::Zero(120, columns);
+        for (Eigen::Index i = 0; i < count; ++i) all.row(rows[i]) += b.row(i);
+        const Eigen::MatrixXd x = factors.solve_within(blocks, b), expected = springs.dense.llt().solve(all);
+        ASSERT_EQ(x.rows(), count);
+        ASSERT_EQ(x.cols(), columns);
+        EXPECT_LE((x - expected(rows, Eigen::all)).norm(), 1e-12 * expected.norm());
+      }
+  }
 }
 
 TEST(BlockCholesky, SolvesASingleBlock) {
