@@ -168,10 +168,17 @@ class UnstableGrowth(SceneRuns):
         self.assertLess(len(joined), len(rows) - 5)
         for row in rows:
             self.assertLess(abs(row["fluid_balance_error"]), 1e-9 * row["fluid_injected"])
+            # Two tips of one fracture that unload each other alike have the most equal advances of all whose loads differ by
+            # no more than the error of both meshes, 2e-3: K is the toughness in the mean of both.
+            main = [row[end + "K_eq"] / row[end + "apparent_toughness"] for end in ends[:2]]
+            are_alike = all(row[end + "length"] > 2 * TAKEN_OVER and row[end + "grows"] for end in ends[:2])
+            if are_alike:
+                self.assertLess(abs(main[0] - main[1]), 3e-3)
+                self.assertLess(abs(sum(main) / 2 - 1), 3e-4)
             for end in ends:
                 # Tips on the fine level alone rest within a per cent of their toughness, others below it.
                 limit = 2e-7 if row[end + "length"] > 2 * TAKEN_OVER else 0.02
-                if not math.isnan(row[end + "K_eq"]):
+                if not math.isnan(row[end + "K_eq"]) and not (are_alike and end in ends[:2]):
                     self.assertLess(row[end + "K_eq"], (1 + limit) * row[end + "apparent_toughness"])
         # What has parted does not heal; where the mesh takes a bent kink over it is straight, and shorter by a per cent.
         for before, after in zip(rows, rows[1:]):
