@@ -59,7 +59,6 @@ struct FineLevelRequest {
   double size;                            ///< m, of the square
   double coarse_size;                     ///< m, of the coarse level's edges at the tip
   Point anchor;                           ///< m, a place that does not move while cracks grow
-  bool follows;                           ///< whether factors are to depend continuously on the advance
   bool keeps;                             ///< whether this fine level and the next one belong to trials of one step
   std::shared_ptr<const KeptLevel> kept;  ///< what the fine level of the trial before has left, or null
   const FineLoads& loads;

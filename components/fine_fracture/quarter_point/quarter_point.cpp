@@ -101,8 +101,7 @@ class QuarterPointLevels : public FineLevelMaker {
     }
     const auto* before = dynamic_cast<const KeptTriangulation*>(request.kept.get());
     TriangulationKeeper keeper{request.anchor, request.keeps && before ? before->triangulated : nullptr};
-    FineModel model(request.domain.geometry, mesh, request.rock, tip, request.profile,
-                    request.follows ? &keeper : nullptr);
+    FineModel model(request.domain.geometry, mesh, request.rock, tip, request.profile, &keeper);
     return {.level = std::make_unique<QuarterPointLevel>(std::move(model), tip, integrates),
             .kept = request.keeps ? kept(keeper.kept) : nullptr};
   }

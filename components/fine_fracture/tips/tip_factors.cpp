@@ -88,7 +88,6 @@ Sifs Tips::evaluate(std::size_t index, const std::vector<TipPath>& paths) try {
                                        .size = options_.size,
                                        .coarse_size = tip.coarse_size,
                                        .anchor = original_end(mesh_, tip.end.fracture, tip.end.at_end),
-                                       .follows = grows_within_steps_,
                                        .keeps = keeps,
                                        .kept = tip.pattern,
                                        .loads = loads,

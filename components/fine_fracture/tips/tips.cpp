@@ -99,7 +99,7 @@ CavityOptions Tips::cavity() const {
   double size = 0;
   for (const Tip& tip : tips_) size = std::max(size, tip.coarse_size);
   return {
-      .radius = options_.cavity * size, .size = size, .growth = options_.cavity_growth, .rounds = grows_within_steps_};
+      .radius = options_.cavity * size, .size = size, .growth = options_.cavity_growth, .rounds = true};
 }
 
 std::uint64_t Tips::topology() const {
