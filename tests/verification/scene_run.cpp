@@ -39,7 +39,7 @@ SceneRun::SceneRun(const Scene& scene) {
 
 bool SceneRun::step() {
   for (;;) {
-    const StepTime step = controller_->next();
+    const StepTime step = controller_->next(growth_->longest_step());
     const StepStatus status = growth_->attempt(step);
     if (status.converged && growth_->before_acceptance() == MeshGrowth::Outcome::changed) continue;
     if (status.converged) {
