@@ -98,8 +98,7 @@ std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) co
 CavityOptions Tips::cavity() const {
   double size = 0;
   for (const Tip& tip : tips_) size = std::max(size, tip.coarse_size);
-  return {
-      .radius = options_.cavity * size, .size = size, .growth = options_.cavity_growth, .rounds = true};
+  return {.radius = options_.cavity * size, .size = size, .growth = options_.cavity_growth, .rounds = true};
 }
 
 std::uint64_t Tips::topology() const {
