@@ -186,30 +186,6 @@ INSTANTIATE_TEST_SUITE_P(Angles, CarriedState,
                            return (text[0] == '-' ? "minus_" : "") + text.substr(text[0] == '-', 2);
                          });
 
-// Steps and increments that are long beside the wing, which turns by 0.15 rad in 3 h: growth makes the steps shorter. K
-// moved by 4 % where a segment was divided that had turned by so much.
-TEST(CarriedStateInLongSteps, IsThatOfTheMeshBeforeWhereWingsTurn) {
-  for (const char* angle : {"20 deg", "-20 deg"}) {
-    std::vector<Override> long_steps = wings(angle);
-    long_steps.insert(long_steps.end(), {{"time.step", "3 h"},
-                                         {"mesh.size", "0.2 m"},
-                                         {"components.tips.size", "0.7 m"},
-                                         {"components.tips.growth.increment", "25 mm"}});
-    SceneRun run("paper/wing_cracks.yaml", long_steps);
-    int kicks = 0, divided = 0;
-    run.run_until(17 * hour, [&] {
-      if (run.time() < hour) return;
-      const std::optional<Kick> kick = kick_of(run, TrialMeshes::Cells::same);
-      if (!kick) return;
-      ++kicks;
-      divided += kick->bend > 0;
-      EXPECT_LT(kick->load, 3e-3) << angle << ", " << run.time() / hour << " h";
-    });
-    EXPECT_GE(kicks, 6);
-    EXPECT_GE(divided, 1);
-  }
-}
-
 // Edges of the fracture are 20 mm long. A kink of a quarter of that is followed by the mesh, a shorter one by the fine
 // level alone; 0.95 of a quarter is as good.
 TEST(Kinks, AreFollowedByTheMeshFromAQuarterOfAnEdgeOn) {

@@ -43,29 +43,6 @@ PlaceOnWay place_on_way(const Point& anchor, const std::optional<Point>& start, 
           turned(next->direction, back * turn_between(next->direction, near_direction))};
 }
 
-PlaceOnWay place_on_arc(const Point& anchor, const Point& start, const Point& end, double length) {
-  const Point chord = end - anchor;
-  SPREKK_EXPECT(length >= 0 && length <= chord.norm(), length, chord.norm());
-  const double half = std::asin(length / chord.norm() * std::sin(turn_between(start, chord)));
-  return {anchor + length * turned(start, half), turned(start, 2 * half)};
-}
-
-Point end_of_arc(const PlaceOnWay& from, const Point& to) {
-  const Point chord = to - from.position;
-  return turned(chord.normalized(), turn_between(from.direction, chord));
-}
-
-PlaceOnWay place_of_division(const Point& anchor, const Point& start, const PlaceOnWay& on_way, const PlaceOnWay& tip,
-                             double most) {
-  const double change = std::abs(turn_between(tip.direction, end_of_arc(on_way, tip.position)));
-  if (change <= most) return on_way;
-  const Point way = on_way.position - anchor;
-  const PlaceOnWay on_arc = place_on_arc(anchor, start, tip.position, way.norm());
-  const double part = 1 - most / change;
-  return {anchor + turned(way, part * turn_between(way, on_arc.position - anchor)),
-          turned(on_way.direction, part * turn_between(on_way.direction, on_arc.direction))};
-}
-
 Point middle_of_arc(const Point& anchor, const Point& start, const Point& end) {
   const Point chord = end - anchor;
   SPREKK_EXPECT(chord.norm() > 0, chord.norm());

@@ -22,20 +22,6 @@ struct PlaceOnWay {
 PlaceOnWay place_on_way(const Point& anchor, const std::optional<Point>& start, const std::vector<PlaceOnWay>& way,
                         double length);
 
-/// The place on the arc from the anchor to `end` that begins in the direction `start` and bends by one curvature, at
-/// this distance (m) from the anchor.
-PlaceOnWay place_on_arc(const Point& anchor, const Point& start, const Point& end, double length);
-
-/// The direction at its end of an arc from one place to another.
-Point end_of_arc(const PlaceOnWay& from, const Point& to);
-
-/// The place where an arc from the anchor is divided that begins in the direction `start` and ends at the tip:
-/// `on_way`, where the tip has been. Where a second arc from there would end at the tip in a direction that differs
-/// from the present one by more than `most` (rad), the place moves towards the present arc, on which nothing would
-/// change, until it differs by that.
-PlaceOnWay place_of_division(const Point& anchor, const Point& start, const PlaceOnWay& on_way, const PlaceOnWay& tip,
-                             double most);
-
 /// The middle point of two straight pieces that stand for an arc from the anchor to `end` which begins in the direction
 /// `start`: the intersection of its tangents, so that the second piece has the direction of the arc at its end. An arc
 /// that turns by more than 0.8 rad is not followed.

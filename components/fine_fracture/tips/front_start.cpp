@@ -16,8 +16,6 @@ namespace {
 constexpr double longest_advance = 1.5;  ///< of an increment, in one step
 constexpr double carried_on = 0.5;       ///< of a change between the last two steps: it has noise, too
 constexpr double largest_trend = 2;      ///< of the speed in this step over that in the last one
-/// rad, most by which the end of a path turns where its last segment is divided
-constexpr double turned_by_division = 0.015;
 
 /// Speeds are means over the last two steps, because advances alternate: segments are divided every other step.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }
@@ -95,10 +93,7 @@ void TipsFront::add(Tips::Tip& tip) {
     tip.next_start = tip.now.segment_start;
     if (const double stays = what_stays(tip, start); stays > 0) {
       // The part that stays ends where the tip has been; the segment has turned since then.
-      PlaceOnWay place = place_on_way(start.anchor, tip.now.segment_start, tip.now.way, stays);
-      if (tip.now.segment_start)
-        place = place_of_division(start.anchor, *tip.now.segment_start, place, {end, tips_.end_direction(tip)},
-                                  turned_by_division);
+      const PlaceOnWay place = place_on_way(start.anchor, tip.now.segment_start, tip.now.way, stays);
       start.anchor = place.position;
       start.covered = (end - start.anchor).norm();
       start.angle = angle_of(end - start.anchor);

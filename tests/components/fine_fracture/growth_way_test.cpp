@@ -75,47 +75,6 @@ TEST(MiddleOfArc, HasTheTangentsOfACircleAtBothEnds) {
   }
 }
 
-TEST(PlaceOnArc, LiesOnTheCircleWithItsDirection) {
-  for (const Circle circle : {Circle{40, 3.0}, Circle{-25, -0.4}, Circle{1e-4, 0.2}}) {
-    const PlaceOnWay start = circle.after(0), end = circle.after(0.02);
-    EXPECT_LT((end_of_arc(start, end.position) - end.direction).norm(), 1e-10);
-    for (const double arc : {0.003, 0.011, 0.0199}) {
-      const PlaceOnWay exact = circle.after(arc);
-      const PlaceOnWay found = place_on_arc(anchor, start.direction, end.position, (exact.position - anchor).norm());
-      EXPECT_LT((found.position - exact.position).norm(), 1e-12);
-      EXPECT_LT((found.direction - exact.direction).norm(), 1e-9);
-    }
-  }
-}
-
-/// A tip that has been beside the present arc: near to it the place is kept; elsewhere it is between that place and the
-/// arc, and the end of the path turns by about what it may. All is continuous where the rule begins.
-TEST(PlaceOfDivision, TurnsTheEndOfThePathByNoMoreThanSoMuch) {
-  constexpr double most = 0.015;
-  for (const Circle circle : {Circle{12, 3.0}, Circle{-8, -0.4}}) {
-    const PlaceOnWay start = circle.after(0), tip = circle.after(0.02);
-    const auto turn_of_end = [&](const PlaceOnWay& place) {
-      return (end_of_arc(place, tip.position) - tip.direction).norm();
-    };
-    const PlaceOnWay on_arc = circle.after(0.01);
-    PlaceOnWay before = on_arc;
-    for (double beside = 0; beside < 0.6e-3; beside += 0.5e-6) {
-      const Point normal(-on_arc.direction[1], on_arc.direction[0]);
-      const PlaceOnWay on_way{on_arc.position + beside * normal, on_arc.direction};
-      const PlaceOnWay found = place_of_division(anchor, start.direction, on_way, tip, most);
-      if (turn_of_end(on_way) < 0.99 * most) {
-        EXPECT_EQ(found.position, on_way.position);
-      }
-      EXPECT_LT(turn_of_end(found), 1.05 * most) << beside;
-      if (turn_of_end(on_way) > 1.1 * most) {
-        EXPECT_GT(turn_of_end(found), 0.9 * most) << beside;
-      }
-      EXPECT_LT((found.position - before.position).norm(), 0.6e-6) << beside;
-      before = found;
-    }
-  }
-}
-
 /// A start that leads elsewhere: the arc does not become a loop.
 TEST(MiddleOfArc, TurnsByNoMoreThanSoMuch) {
   const Point end = anchor + Point(0.01, 0);
