@@ -22,6 +22,15 @@ bool turns_away(const Sifs& sifs, double length) {
   return 4 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) > 0.5 * equivalent_sif(sifs);
 }
 
+/// The longest increment that such a tension does not turn away, m; half of it, where the condition is far from its
+/// limit.
+double longest_that_turns_back(const Sifs& sifs) {
+  const double root = equivalent_sif(sifs) / (8 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress);
+  return 0.5 * root * root;
+}
+
+constexpr const char* tension = "tension along the tip turns it away from where K_II vanishes";
+
 /// abs(phi) up to which estimates for the right direction hold.
 constexpr double nearly_right = 0.5;
 
@@ -53,9 +62,12 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
     angle_ = clamp_turn(options_.relaxation *
                         (options_.releases_most() ? largest_release_angle(start_) : maximum_tangential_angle(start_)));
     phase_ = Phase::direction_fixed;
-  } else if (turns_away(start_, length_)) {
-    fix_direction("tension along the tip turns it away from where K_II vanishes");
+  } else if (turns_away(start_, length_) &&
+             !(options_.seeks_arrest() && may_wait() && longest_that_turns_back(start_) >= shortest_length())) {
+    fix_direction(tension);
   } else {
+    // Where little growth is wanted, K_eq may fall to the toughness on the way to an increment that is turned away.
+    if (turns_away(start_, length_)) length_ = longest_that_turns_back(start_);
     angle_ = local_symmetry_angle(start_, length_, options_.largest_turn);
   }
 }
@@ -72,9 +84,14 @@ double IncrementSearch::first_length() const {
 
 /// A tip waits rather than grow by very little, but not where that would leave it well above the toughness.
 double IncrementSearch::shortest_length() const {
-  constexpr double tolerances = 2, part = 0.1;
-  const bool may_wait = equivalent_sif(start_) <= (1 + tolerances * options_.arrest_tolerance) * toughness_;
-  return (options_.seeks_arrest() && !may_wait ? part : 1) * options_.smallest_length();
+  constexpr double part = 0.1;
+  return (options_.seeks_arrest() && !may_wait() ? part : 1) * options_.smallest_length();
+}
+
+/// Whether the tip is hardly above its toughness.
+bool IncrementSearch::may_wait() const {
+  constexpr double tolerances = 2;
+  return equivalent_sif(start_) <= (1 + tolerances * options_.arrest_tolerance) * toughness_;
 }
 
 double IncrementSearch::clamp_turn(double angle) const {
@@ -328,6 +345,7 @@ void IncrementSearch::shorten(double by) {
 /// Changes the length, and estimates the direction for it from the directions that were tried with the present length.
 void IncrementSearch::go_to(double length) {
   SPREKK_EXPECT(length > 0 && std::isfinite(length), length);
+  if (phase_ == Phase::searching && turns_away(start_, length)) fix_direction(tension);
   if (phase_ == Phase::searching) {
     // The error of the estimate vanishes with the length.
     const double root = directions_.empty() ? angle_ : root_of_phi();

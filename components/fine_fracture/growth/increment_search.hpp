@@ -75,6 +75,7 @@ class IncrementSearch {
   double root_of_phi();
   double first_length() const;
   double shortest_length() const;
+  bool may_wait() const;
   double next_length(const std::optional<Length>& third) const;
   double longer_length() const;
   void correct_direction(const Sifs& end);

@@ -148,6 +148,32 @@ TEST(Arrest, turns_and_stops_at_once) {
   EXPECT_LT((ends[0] - ends[1]).norm(), 1e-3 * ends[0].norm());
 }
 
+// Tension along the tip would turn a whole increment away from where K_II vanishes, and K rises with long ones. A tip
+// that is hardly above its toughness ends at the first length at which K has come down to it, in both senses of shear.
+TEST(Arrest, is_near_where_tension_turns_long_increments_away) {
+  for (const double sense : {1.0, -1.0}) {
+    const Sifs start{0.02e6, sense * 0.62e6, 3.5e6};
+    const auto change = [](double length) { return 1 - std::sqrt(length / 4.4e-3) + std::pow(length / 0.004, 2); };
+    const auto sifs = [&](int, const std::vector<TipPath>& paths) {
+      if (paths[0].added.empty()) return start;
+      const Point& end = paths[0].added.back();
+      Sifs found = after_kink(start, std::atan2(end[1], end[0]), end.norm());
+      found.k1 *= change(end.norm());
+      found.k2 *= change(end.norm());
+      return found;
+    };
+    GrowthOptions options = options_with(0.01);
+    options.smallest = 1e-6;
+    const GrowingTip tip = tip_at(0, 0.985 * equivalent_sif(start));
+    const TipOutcome outcome = grow_tips({tip}, options, sifs, unlimited)[0];
+    EXPECT_TRUE(outcome.arrested) << outcome.reason;
+    EXPECT_NEAR(equivalent_sif(outcome.end) / tip.toughness, 1, 1e-2);
+    EXPECT_LE(std::abs(outcome.end.k2), options.direction_tolerance * outcome.end.k1);
+    EXPECT_LT(outcome.length, 0.8e-3);
+    EXPECT_GT(outcome.length, 0.002e-3);
+  }
+}
+
 // A tip that meets the shadow of another fracture: K jumps, and neither of its sides has the toughness.
 TEST(Arrest, that_does_not_exist_ends_the_search_too) {
   const GrowingTip tip = tip_at(0);
