@@ -22,8 +22,7 @@ bool turns_away(const Sifs& sifs, double length) {
   return 4 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress * std::sqrt(length) > 0.5 * equivalent_sif(sifs);
 }
 
-/// The longest increment that such a tension does not turn away, m; half of it, where the condition is far from its
-/// limit.
+/// Half of the longest increment that is not turned away, m, for T > 0.
 double longest_that_turns_back(const Sifs& sifs) {
   const double root = equivalent_sif(sifs) / (8 * std::sqrt(2 / std::numbers::pi) * sifs.t_stress);
   return 0.5 * root * root;
