@@ -347,4 +347,22 @@ PressureNearTips::Value PressureNearTips::at(const Place& place) {
   return {sum, region.weight};
 }
 
+void PressureNearTips::add_pieces(LinearPieces& pieces) {
+  for (const auto& region : regions_) {
+    if (!region->solution) region->solve(given_);
+    if (region->weight == 0) continue;
+    for (std::size_t c = 0; c < region->cells.size(); ++c) {
+      std::vector<LinearPiece>& of_cell = pieces[region->cells[c]];
+      for (const std::array<int, 3>& t : region->triangles[c]) {
+        LinearPiece& piece = of_cell.emplace_back();
+        piece.weight = region->weight;
+        for (int k = 0; k < 3; ++k) {
+          piece.corners[k] = region->nodes[t[k]];
+          piece.values[k] = (*region->solution)[t[k]];
+        }
+      }
+    }
+  }
+}
+
 }  // namespace sprekk::couplers

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "framework/field/linear_pieces.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {
@@ -46,6 +47,8 @@ class PressureNearTips {
     double value, weight;
   };
   Value at(const Place& place);  ///< Pa
+  /// Adds the pressure in all cells of the rings.
+  void add_pieces(LinearPieces& pieces);
 
  private:
   struct Region;

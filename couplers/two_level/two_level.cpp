@@ -137,6 +137,17 @@ class TwoLevel : public Coupler, public TipSurroundings {
     if (!contacts_.empty()) fluid_traction_ = traction_ - contacts_.traction();
   }
 
+  /// The pressure near tips, which moves into new cells with the shape that loads the fine level.
+  void add_known_within_cells(const Field& field, LinearPieces& pieces) const override {
+    if (options_.pore_pressure != "near_tips" || &field != pressure_by_exchange()) return;
+    NodalValues fit(mesh_, NodalValues::From::cells);
+    fit.set(1, field.accepted(), {});
+    PressureNearTips near_tips(mesh_);
+    near_tips.set(
+        {field.accepted(), pressures_at_walls(fluid_->rock_walls()->wall_pressure().accepted()), fit.of_nodes(0)});
+    near_tips.add_pieces(pieces);
+  }
+
   std::uint64_t version() const override {
     return rock_.properties_version() + rock_.displacement().version() + walls_.wall_traction().version() +
            (fluid_ ? fluid_->pressure().version() : 0) + contacts_.traction_version();

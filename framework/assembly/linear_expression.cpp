@@ -8,4 +8,10 @@ Vector LinearExpression::now() const {
   return value;
 }
 
+Vector LinearExpression::accepted() const {
+  Vector value = constant;
+  for (const Term& term : terms) value += term.matrix.entries() * term.field->accepted();
+  return value;
+}
+
 }  // namespace sprekk

@@ -23,6 +23,7 @@ struct LinearExpression {
   std::vector<Term> terms;
 
   Vector now() const;
+  Vector accepted() const;  ///< with the accepted values of the fields, and the constant of now
 };
 
 }  // namespace sprekk

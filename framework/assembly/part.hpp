@@ -11,6 +11,7 @@
 #include "framework/assembly/notes.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
+#include "framework/field/linear_pieces.hpp"
 #include "framework/field/output_field.hpp"
 #include "framework/output/profile_entry.hpp"
 
@@ -74,6 +75,9 @@ class Part {
   /// Called after the fields have been accepted or rewound, for state that is not in fields.
   virtual void accepted() {}
   virtual void rewound() {}
+  /// Adds what the part knows of the accepted values of a field within cells, beside their means. New cells take it
+  /// over when the mesh changes (transferred_cells).
+  virtual void add_known_within_cells(const Field& /*field*/, LinearPieces& /*pieces*/) const {}
   /// Called on a part that has been built on a changed mesh, after its fields have received their values. Copies the
   /// state outside of fields from `before`, the same part on the old mesh, and gives new entities their initial state.
   virtual void carry_over(const Part& /*before*/, const MeshChange& /*change*/) {}

@@ -1,11 +1,29 @@
 #include "framework/discretization/end_frame.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "framework/invariants.hpp"
+#include "framework/mesh/planar.hpp"
 
 namespace sprekk {
+namespace {
+
+constexpr int most_cells = 32;  ///< behind an end, of which the side of a point is told
+
+/// The ends of the cells of a fracture, from that of its last cell, or of its first one, backwards.
+std::vector<Point> line_from(const Mesh& mesh, int cell, bool at_end) {
+  const Fracture& fracture = mesh.fractures[mesh.fracture_cells[cell].fracture];
+  const auto end_of = [&](int i, int k) { return mesh.fracture_points[mesh.fracture_cells[i].points[k]].position; };
+  std::vector<Point> line{end_of(cell, at_end ? 1 : 0)};
+  for (int k = 0; k < std::min(most_cells, fracture.cell_count); ++k)
+    line.push_back(end_of(at_end ? cell - k : cell + k, at_end ? 0 : 1));
+  return line;
+}
+
+}  // namespace
 
 EndFrame::EndFrame(const Mesh& mesh, int end) : origin_(mesh.nodes[end]) {
   SPREKK_EXPECT(is_index(end, mesh.node_count()), end, mesh.node_count());
@@ -15,10 +33,32 @@ EndFrame::EndFrame(const Mesh& mesh, int end) : origin_(mesh.nodes[end]) {
     axes_ << ahead.x(), -ahead.y(), ahead.y(), ahead.x();
     size_ = mesh.face_measure[face];
     SPREKK_ASSERT(size_ > 0, end, face, size_);
+    const int cell = mesh.face_fracture_cell[face];
+    fracture_ = mesh.fracture_cells[cell].fracture;
+    line_ = line_from(mesh, cell, ahead.dot(mesh.fracture_cells[cell].tangents) > 0);
   }
+  if (line_.size() < 2) line_ = {origin_, origin_ - axes_.col(0)};
 }
 
-int EndFrame::side_of(const Point& x) const { return axes_.col(1).dot(x - origin_) < 0 ? -1 : 1; }
+int EndFrame::side_of(const Point& x) const {
+  const auto ahead = [&](std::size_t i) { return Point((line_[i] - line_[i + 1]).normalized()); };
+  const std::size_t last = line_.size() - 2;
+  double least = std::numeric_limits<double>::infinity(), side = 0;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Point along = line_[i + 1] - line_[i];
+    const double part = std::clamp(along.dot(x - line_[i]) / along.squaredNorm(), 0.0, 1.0);
+    const Point near = line_[i] + part * along;
+    const double distance = (x - near).norm();
+    if (distance >= least) continue;
+    least = distance;
+    // Where the nearest place is a bend, both pieces count alike.
+    Point direction = ahead(i);
+    if (part == 0 && i > 0) direction += ahead(i - 1);
+    if (part == 1 && i < last) direction += ahead(i + 1);
+    side = cross(direction, x - near);
+  }
+  return side < 0 ? -1 : 1;
+}
 
 int EndFrame::side_of_wall(const Mesh& mesh, int face) const {
   SPREKK_EXPECT(is_index(face, mesh.face_count()) && mesh.face_fracture_cell[face] != none, face);
@@ -30,16 +70,17 @@ int EndFrame::side_of_wall(const Mesh& mesh, int face) const {
 
 int EndFrame::side_of_cell(const Mesh& mesh, int cell) const {
   for (const int face : mesh.cell_faces[cell])
-    if (mesh.face_fracture_cell[face] != none) return side_of_wall(mesh, face);
-  return 0;
+    if (const int wall = mesh.face_fracture_cell[face]; wall != none && mesh.fracture_cells[wall].fracture == fracture_)
+      return side_of_wall(mesh, face);
+  return side_of(mesh.cell_center[cell]);
 }
 
 EndFrame::Polar EndFrame::polar(const Point& x, int side) const {
   SPREKK_EXPECT(side >= -1 && side <= 1, side);
   const Point local = axes_.transpose() * (x - origin_);
   const double angle = std::atan2(local.y(), local.x());
-  // Behind the end a fracture with a slight bend is beside the line through the end, so `side` decides the sign there.
-  const bool is_beyond = angle * side < 0 && std::abs(local.y()) < -0.5 * local.x();
+  // Behind the end a fracture with a bend is beside the line through the end, so `side` decides the sign there.
+  const bool is_beyond = angle * side < 0 && local.x() < 0;
   return {local.norm(), is_beyond ? angle + 2 * std::numbers::pi * side : angle};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "framework/mesh/mesh.hpp"
 
@@ -16,9 +17,10 @@ class EndFrame {
   /// `end`: a node that is the end of a fracture (is_fracture_end).
   EndFrame(const Mesh& mesh, int end);
 
-  int side_of(const Point& x) const;                   ///< +1 or -1: the side of the line through the last wall
-  int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1: the side of the fracture, which may bend
-  int side_of_cell(const Mesh& mesh, int cell) const;  ///< the side of the cell's wall, 0 for a cell without a wall
+  /// +1 or -1: the side of the fracture, which may bend, and ahead of the end that of the line through the last wall.
+  int side_of(const Point& x) const;
+  int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1
+  int side_of_cell(const Mesh& mesh, int cell) const;  ///< of its wall, and for a cell without a wall of its centre
 
   /// Polar coordinates around the end.
   struct Polar {
@@ -36,6 +38,8 @@ class EndFrame {
   Point origin_;
   double size_ = 1;
   Eigen::Matrix2d axes_;
+  int fracture_ = none;
+  std::vector<Point> line_;  ///< m, of the fracture, from the end on: as many cells as fields of the end may reach
 };
 
 }  // namespace sprekk

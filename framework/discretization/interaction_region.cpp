@@ -5,6 +5,7 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/planar.hpp"
 
 namespace sprekk {
 
@@ -13,8 +14,6 @@ namespace {
 int index_in(std::span<const int> items, int item) {
   return static_cast<int>(std::find(items.begin(), items.end(), item) - items.begin());
 }
-
-double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 }  // namespace
 

@@ -70,7 +70,7 @@ struct Polygon {
 };
 
 /// Relative to the first corner of a, so that coordinates far from the origin cost no digits.
-Polygon common_part(const Corners& a, const Corners& b) {
+Polygon common_polygon(const Corners& a, const Corners& b) {
   const Point origin = a[0];
   Polygon part;
   for (const Point& x : b) part.corners[part.count++] = x - origin;
@@ -130,17 +130,24 @@ class Buckets {
 }  // namespace
 
 double common_area(const Corners& a, const Corners& b) {
-  const Polygon part = common_part(a, b);
+  const Polygon part = common_polygon(a, b);
   return part.count < 3 ? 0 : part.area();
 }
 
-Point common_centre(const Corners& a, const Corners& b) {
-  Polygon part = common_part(a, b);
-  if (part.count < 3 || !(part.area() > 0)) {
+Point common_centre(const Corners& a, const Corners& b) { return common_part(a, b).centre; }
+
+CommonPart common_part(const Corners& a, const Corners& b) {
+  CommonPart common;
+  Polygon part;
+  if (Extent(a).meets(Extent(b))) part = common_polygon(a, b);
+  if (part.count >= 3) common.area = part.area();
+  if (!(common.area > 0)) {
+    common.area = 0;
     part.count = a.size();
     for (int k = 0; k < a.size(); ++k) part.corners[k] = a[k] - a[0];
   }
-  return a[0] + part.centre();
+  common.centre = a[0] + part.centre();
+  return common;
 }
 
 void for_each_overlap(const std::vector<Corners>& one, const std::vector<Corners>& other,

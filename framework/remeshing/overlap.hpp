@@ -42,6 +42,14 @@ double common_area(const Corners& a, const Corners& b);
 /// The centre of area of the intersection of two cells, m; the centre of a where they have no area in common.
 Point common_centre(const Corners& a, const Corners& b);
 
+/// The area of the intersection of two cells, m^2, and its centre, m; the centre of a where they have no area in
+/// common.
+struct CommonPart {
+  double area = 0;
+  Point centre;
+};
+CommonPart common_part(const Corners& a, const Corners& b);
+
 /// Calls visit(i, j, area) for each pair of a cell of `one` and one of `other` with common area, i ascending, then
 /// j ascending. Buckets are used to find pairs: the work is about proportional to the number of pairs.
 void for_each_overlap(const std::vector<Corners>& one, const std::vector<Corners>& other,

@@ -1,5 +1,6 @@
 #include "framework/scene/change_mesh.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "framework/invariants.hpp"
@@ -39,14 +40,19 @@ void share_replaced(const Field& old, const MeshChange& change, int parts, Vecto
 }  // namespace
 
 void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, const Mesh& new_mesh,
-                     FieldStore& after) {
+                     FieldStore& after, const std::vector<Part*>& old_parts) {
+  const bool has_new_cells = std::ranges::find(change.cell, none) != change.cell.end();
   for (const auto& field : after.all()) {
     const Field& old = before.at(field->name());
     Vector values = field->accepted();
     switch (field->spec().location) {
-      case Location::cell:
-        values = transferred_cells(old, change, old_mesh, new_mesh);
+      case Location::cell: {
+        LinearPieces known;
+        if (has_new_cells && !old.spec().is_amount)
+          for (const Part* part : old_parts) part->add_known_within_cells(old, known);
+        values = transferred_cells(old, change, old_mesh, new_mesh, known);
         break;
+      }
       case Location::fracture_cell:
         copy_kept(old, change.fracture_cell, 1, values);
         share_replaced(old, change, 1, values);
@@ -95,7 +101,7 @@ MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMe
   SPREKK_ASSERT(model.parts().size() == before.parts().size(), model.parts().size(), before.parts().size());
   grown.change.is_at_start = data.end <= before.scene().time.start;
   if (!grown.change.is_at_start)
-    transfer_fields(before.fields(), grown.change, before.mesh(), model.mesh(), model.fields());
+    transfer_fields(before.fields(), grown.change, before.mesh(), model.mesh(), model.fields(), before.parts());
   for (Part* part : model.parts()) part->evaluate_data(data);
   for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);
   begin_step(model.parts(), data);

@@ -74,9 +74,26 @@ class LinearInCells {
   std::map<int, Gradient> gradients_;       ///< by cell, computed when they are needed
 };
 
+/// The mean over what a new cell has in common with an old one, which has a common area with it.
+double mean_of_pieces(const std::vector<LinearPiece>& pieces, const Corners& cell, int old_cell,
+                      LinearInCells& linear) {
+  double sum = 0, area = 0;
+  for (const LinearPiece& piece : pieces) {
+    const CommonPart part = common_part(cell, {piece.corners[0], piece.corners[1], piece.corners[2]});
+    if (!(part.area > 0)) continue;
+    area += part.area;
+    sum += part.area * piece.weight * piece.at(part.centre);
+    if (piece.weight < 1) sum += part.area * (1 - piece.weight) * linear.at(old_cell, part.centre)[0];
+  }
+  SPREKK_ASSERT(area > 0, old_cell);
+  return sum / area;
+}
+
 }  // namespace
 
-Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh& old_mesh, const Mesh& new_mesh) {
+Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh& old_mesh, const Mesh& new_mesh,
+                         const LinearPieces& known) {
+  SPREKK_EXPECT(known.empty() || old.spec().components == 1, old.name());
   const int components = old.spec().components;
   const bool is_amount = old.spec().is_amount;
   SPREKK_EXPECT(old.accepted().size() == static_cast<Eigen::Index>(old_mesh.cell_count()) * components, old.name());
@@ -99,6 +116,10 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
       const int from = static_cast<int>(entry.col());
       if (is_amount) {
         value += entry.value() / old_mesh.cell_measure[from] * old.accepted().segment(from * components, components);
+        continue;
+      }
+      if (const auto pieces = known.find(from); pieces != known.end()) {
+        value[0] += entry.value() / area * mean_of_pieces(pieces->second, corners, from, linear);
         continue;
       }
       const Point centre = common_centre(corners, corners_of(old_mesh.nodes, old_mesh.cell_nodes[from]));

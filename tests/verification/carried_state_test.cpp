@@ -12,15 +12,21 @@
 
 #include "framework/run/trial_meshes.hpp"
 #include "tests/verification/scene_run.hpp"
+#include "tests/verification/values_of_paper.hpp"
 
 namespace sprekk::testing {
 namespace {
 
 constexpr double hour = 3600, toughness = 0.7e6;  // s, Pa sqrt(m)
 
-/// The wings of section 5.2 of the paper, turned with their fracture by an angle.
-std::vector<Override> wings(const std::string& angle) {
-  return {{"geometry.fractures.main.angle", angle}, {"couplers.4.propagation_threshold", "0.25"}};
+/// Whose steps, increments and sizes the wings of section 5.2 of the paper have.
+enum class Values { of_scene, of_paper };
+
+/// These wings, turned with their fracture by an angle.
+std::vector<Override> wings(const std::string& angle, Values values) {
+  const std::vector<Override> turned = {{"geometry.fractures.main.angle", angle},
+                                        {"couplers.4.propagation_threshold", "0.25"}};
+  return values == Values::of_paper ? with_values_of_paper(turned) : turned;
 }
 
 /// The accepted state on its mesh, as after a restart, of a scene with the same fields.
@@ -133,19 +139,21 @@ std::optional<Kick> kick_of(SceneRun& run, TrialMeshes::Cells cells) {
               moves("contact.jump", fracture_cell), moves("pore.pressure", cell)};
 }
 
-struct Angle {
-  const char* text;
+struct Case {
+  const char* angle;
+  Values values;
   double hours;
+  double load;  ///< most by which K moves; asked: 3e-3
 };
 
-class CarriedState : public ::testing::TestWithParam<Angle> {};
+class CarriedState : public ::testing::TestWithParam<Case> {};
 
 TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
-  SceneRun run("paper/wing_cracks.yaml", wings(GetParam().text));
-  std::vector<Override> finer = wings(GetParam().text);
-  finer.push_back({"components.tips.mesh_ratio", "0.25"});
-  finer.push_back({"components.tips.size", "0.6 m"});
-  const Scene fine = SceneRun("paper/wing_cracks.yaml", finer).model().scene();
+  std::vector<Override> choices = wings(GetParam().angle, GetParam().values);
+  SceneRun run("paper/wing_cracks.yaml", choices);
+  choices.push_back({"components.tips.mesh_ratio", "0.25"});
+  if (GetParam().values == Values::of_paper) choices.push_back({"components.tips.size", "0.6 m"});
+  const Scene fine = SceneRun("paper/wing_cracks.yaml", choices).model().scene();
   int tips = 0, kept = 0;
   std::array<int, 2> kicks{}, divided{};
   auto cells = run.mesh().cell_nodes;
@@ -167,8 +175,7 @@ TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
       EXPECT_LT(kick->slip, 1e-3) << run.time() / hour << " h, " << is_anew;
       EXPECT_LT(kick->pressure, 1e-4) << run.time() / hour << " h, " << is_anew;
       divided[is_anew] += kick->bend > 0;
-      // Other cells around the tips have other means of the pore pressure, which loads the fine level.
-      EXPECT_LT(kick->load, 3e-3) << run.time() / hour << " h, " << is_anew;
+      EXPECT_LT(kick->load, GetParam().load) << run.time() / hour << " h, " << is_anew;
     }
   });
   EXPECT_GT(tips, 12);
@@ -177,19 +184,31 @@ TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
   for (const int count : divided) EXPECT_GE(count, 2);
 }
 
+std::string name_of(const ::testing::TestParamInfo<Case>& info) {
+  const std::string text = info.param.angle;
+  return (text[0] == '-' ? "minus_" : "") + text.substr(text[0] == '-', 2);
+}
+
 // At 20 degrees segments that turn are divided until 14 h.
-INSTANTIATE_TEST_SUITE_P(Angles, CarriedState,
-                         ::testing::Values(Angle{"45 deg", 9}, Angle{"-45 deg", 9}, Angle{"30 deg", 9},
-                                           Angle{"-30 deg", 9}, Angle{"20 deg", 14}, Angle{"38 deg", 9}),
-                         [](const auto& info) {
-                           const std::string text = info.param.text;
-                           return (text[0] == '-' ? "minus_" : "") + text.substr(text[0] == '-', 2);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    WithValuesOfPaper, CarriedState,
+    ::testing::Values(Case{"45 deg", Values::of_paper, 9, 2e-3}, Case{"-45 deg", Values::of_paper, 9, 2e-3},
+                      Case{"30 deg", Values::of_paper, 9, 2e-3}, Case{"-30 deg", Values::of_paper, 9, 2e-3},
+                      Case{"20 deg", Values::of_paper, 14, 2e-3}, Case{"38 deg", Values::of_paper, 9, 2e-3}),
+    name_of);
+
+// Steps and increments are long beside the wing. At 20 degrees it would turn by 0.15 rad in 3 h; growth makes the steps
+// shorter.
+INSTANTIATE_TEST_SUITE_P(InLongSteps, CarriedState,
+                         ::testing::Values(Case{"45 deg", Values::of_scene, 26, 3e-3},
+                                           Case{"-45 deg", Values::of_scene, 26, 3e-3},
+                                           Case{"20 deg", Values::of_scene, 19, 3e-3}),
+                         name_of);
 
 // Edges of the fracture are 20 mm long. A kink of a quarter of that is followed by the mesh, a shorter one by the fine
 // level alone; 0.95 of a quarter is as good.
 TEST(Kinks, AreFollowedByTheMeshFromAQuarterOfAnEdgeOn) {
-  SceneRun run("paper/wing_cracks.yaml", {});
+  SceneRun run("paper/wing_cracks.yaml", with_values_of_paper());
   const std::size_t cells = run.mesh().fracture_cells.size();
   int before = 0, after = 0;
   run.run_until(1.5 * hour, [&] {

@@ -8,6 +8,7 @@
 
 #include "framework/assembly/notes.hpp"
 #include "tests/verification/scene_run.hpp"
+#include "tests/verification/values_of_paper.hpp"
 
 namespace sprekk::testing {
 namespace {
@@ -22,7 +23,8 @@ struct Wings {
 
   Wings(const std::string& angle, const std::string& tolerance) : load(0), shear(0) {
     SceneRun run("paper/wing_cracks.yaml",
-                 {{"geometry.fractures.main.angle", angle}, {"components.tips.growth.front_tolerance", tolerance}});
+                 with_values_of_paper({{"geometry.fractures.main.angle", angle},
+                                       {"components.tips.growth.front_tolerance", tolerance}}));
     const auto of = [&](const std::string& name) {
       return std::array{run.quantity("tips.main_first." + name), run.quantity("tips.main_last." + name)};
     };
@@ -45,7 +47,7 @@ struct Wings {
 
 std::size_t notes_with(const std::string& update, const std::string& parameter) {
   SceneRun run("paper/wing_cracks.yaml",
-               {{"schedule.1.update", update}, {"components.tips.growth." + parameter, "1e-5"}});
+               with_values_of_paper({{"schedule.1.update", update}, {"components.tips.growth." + parameter, "1e-5"}}));
   Notes notes;
   for (const Part* part : run.model().parts()) part->note_input(notes);
   return notes.all().size();

@@ -6,6 +6,7 @@
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/scene/change_mesh.hpp"
 #include "tests/verification/scene_run.hpp"
+#include "tests/verification/values_of_paper.hpp"
 
 namespace sprekk::testing {
 namespace {
@@ -83,7 +84,8 @@ TEST(Onset, FactorsHardlyDependOnTheSizeOfTheFineLevel) {
 
 /// A run of section 5.2 of the paper by the held procedure, whose first events are looked at.
 SceneRun wings(const std::string& extra_key = "time.end", const std::string& extra_value = "100 h") {
-  return SceneRun("paper/wing_cracks.yaml", {{extra_key, extra_value}, {"schedule.1.update", "after_step"}});
+  return SceneRun("paper/wing_cracks.yaml",
+                  with_values_of_paper({{extra_key, extra_value}, {"schedule.1.update", "after_step"}}));
 }
 
 TEST(WingCracks, StartAtTheCriticalLoadAndTurnTowardsTheLargestStress) {
@@ -216,7 +218,8 @@ TEST(WingCracks, TheChangeOfTheMeshAloneChangesNoState) {
   EXPECT_NEAR(jump.segment<2>(2 * cells).norm(), 0, 1e-15);
   EXPECT_LT(traction[2 * cells], 5 * mega);
 
-  // Fluid: totals to the last digit, pressures within what they were, and the volume that the fluid balance counts is
+  // Fluid: totals to the last digit, pressures within what they were in rock and fracture (a small new cell beside the
+  // walls has more than a large old one), and the volume that the fluid balance counts is
   // that of the rock, but for an even share of what the two meshes differ by: less than 1 % of the pressure that
   // drives.
   EXPECT_NEAR(after.fields().at("biot.fluid_stored").now().sum(), old.at("biot.fluid_stored").now().sum(),
@@ -224,7 +227,7 @@ TEST(WingCracks, TheChangeOfTheMeshAloneChangesNoState) {
   EXPECT_NEAR(after.fields().at("biot.counted_volume").now().sum(), old.at("biot.counted_volume").now().sum(),
               1e-12 * old.at("biot.counted_volume").now().cwiseAbs().sum());
   const Vector& pressure = after.fields().at("pore.pressure").now();
-  EXPECT_LE(pressure.maxCoeff(), old.at("pore.pressure").now().maxCoeff());
+  EXPECT_LE(pressure.maxCoeff(), old.at("conduit.pressure").now().maxCoeff());
   EXPECT_GE(pressure.minCoeff(), old.at("pore.pressure").now().minCoeff());
   const PoroelasticRock* rock = nullptr;
   for (const auto& component : after.components())

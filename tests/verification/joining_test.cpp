@@ -6,6 +6,7 @@
 
 #include "framework/scene/change_mesh.hpp"
 #include "tests/verification/scene_run.hpp"
+#include "tests/verification/values_of_paper.hpp"
 
 namespace sprekk::testing {
 namespace {
@@ -124,9 +125,10 @@ TEST(Joining, ATipMayBeAskedToStopInstead) {
 /// The scene of section 5.2 of the paper with a second fracture in the way of its right wing. What has just parted
 /// conducts before it opens.
 SceneRun wings(const std::string& wall) {
-  return SceneRun("paper/wing_cracks.yaml", {{"geometry.fractures.wall", wall},
-                                             {"components.conduit.law", "{type: cubic, residual: 20 um}"},
-                                             {"schedule.1.update", "after_step"}});
+  return SceneRun("paper/wing_cracks.yaml",
+                  with_values_of_paper({{"geometry.fractures.wall", wall},
+                                        {"components.conduit.law", "{type: cubic, residual: 20 um}"},
+                                        {"schedule.1.update", "after_step"}}));
 }
 
 TEST(Joining, FluidIsConservedAndFillsTheOtherFracture) {

@@ -8,6 +8,7 @@
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/scene/change_mesh.hpp"
 #include "tests/verification/scene_run.hpp"
+#include "tests/verification/values_of_paper.hpp"
 
 namespace sprekk::testing {
 namespace {
@@ -55,7 +56,7 @@ MeshChangeResult grow_a_wing(SceneRun& run) {
 }
 
 TEST(ChangeOfMesh, HasTheBitsOfAModelThatIsBuiltOnTheNewMesh) {
-  SceneRun run("paper/wing_cracks.yaml", {{"schedule.1.update", "after_step"}});
+  SceneRun run("paper/wing_cracks.yaml", with_values_of_paper({{"schedule.1.update", "after_step"}}));
   const MeshChangeResult changed = grow_a_wing(run);
   // As a restart does.
   Model fresh(run.model().scene(), changed.model->mesh());
@@ -72,10 +73,10 @@ TEST(ChangeOfMesh, HasTheBitsOfAModelThatIsBuiltOnTheNewMesh) {
 TEST(ChangeOfMesh, DiscretizesNothingFarFromTheWing) {
   // The same fracture with about the same cells around it, in squares of 2 m and of 4 m.
   for (const std::string box : {"{x: [0 m, 2 m], y: [0 m, 2 m]}", "{x: [-1 m, 3 m], y: [-1 m, 3 m]}"}) {
-    SceneRun run("paper/wing_cracks.yaml", {{"mesh", "{size: 80 mm, fracture_size: 20 mm, growth: 0.2}"},
-                                            {"geometry.box", box},
-                                            {"output.probes", "{}"},
-                                            {"schedule.1.update", "after_step"}});
+    SceneRun run("paper/wing_cracks.yaml", with_values_of_paper({{"mesh.size", "80 mm"},
+                                                                 {"geometry.box", box},
+                                                                 {"output.probes", "{}"},
+                                                                 {"schedule.1.update", "after_step"}}));
     const MeshChangeResult changed = grow_a_wing(run);
     const Mesh& mesh = changed.model->mesh();
     // The cavity reaches 0.1 m from the wing, or 0.2 m when a larger one gives better angles; then there are three

@@ -19,10 +19,14 @@ Point turned(const Point& direction, double by) {
           std::sin(by) * direction[0] + std::cos(by) * direction[1]};
 }
 
+/// rad, from the chord of an arc to its direction at the start.
+double turn_at_start(const Point& chord, const Point& start) {
+  return std::clamp(turn_between(chord, start), -half_of_largest_turn, half_of_largest_turn);
+}
+
 }  // namespace
 
-PlaceOnWay place_on_way(const Point& anchor, const std::optional<Point>& start, const std::vector<PlaceOnWay>& way,
-                        double length) {
+PlaceOnWay place_on_way(const Point& anchor, const std::vector<PlaceOnWay>& way, double length) {
   SPREKK_EXPECT(!way.empty() && length > 0, way.size(), length);
   const auto next = std::find_if(way.begin(), way.end() - 1,
                                  [&](const PlaceOnWay& place) { return (place.position - anchor).norm() >= length; });
@@ -31,7 +35,7 @@ PlaceOnWay place_on_way(const Point& anchor, const std::optional<Point>& start, 
   SPREKK_EXPECT(far > 0, far);
   const Point chord = to / far;
   double near = 0;
-  Point near_chord = start.value_or(chord), near_direction = start.value_or(next->direction);
+  Point near_chord = chord, near_direction = next->direction;
   if (next != way.begin()) {
     const Point from = (next - 1)->position - anchor;
     near = from.norm();
@@ -43,10 +47,19 @@ PlaceOnWay place_on_way(const Point& anchor, const std::optional<Point>& start, 
           turned(next->direction, back * turn_between(next->direction, near_direction))};
 }
 
+PlaceOnWay place_on_arc(const Point& anchor, const Point& start, const Point& end, double length) {
+  const Point chord = end - anchor;
+  const double whole = chord.norm();
+  SPREKK_EXPECT(length >= 0 && length <= whole, length, whole);
+  const double turn = turn_at_start(chord, start), half = std::asin(length / whole * std::sin(turn));
+  const Point direction = chord / whole;
+  return {anchor + length * turned(direction, turn - half), turned(direction, turn - 2 * half)};
+}
+
 Point middle_of_arc(const Point& anchor, const Point& start, const Point& end) {
   const Point chord = end - anchor;
   SPREKK_EXPECT(chord.norm() > 0, chord.norm());
-  const double turn = std::clamp(turn_between(chord, start), -half_of_largest_turn, half_of_largest_turn);
+  const double turn = turn_at_start(chord, start);
   return anchor + 0.5 / std::cos(turn) * turned(chord, turn);
 }
 

@@ -92,8 +92,10 @@ void TipsFront::add(Tips::Tip& tip) {
     start.anchor = end - start.covered * ahead;
     tip.next_start = tip.now.segment_start;
     if (const double stays = what_stays(tip, start); stays > 0) {
-      // The part that stays ends where the tip has been; the segment has turned since then.
-      const PlaceOnWay place = place_on_way(start.anchor, tip.now.segment_start, tip.now.way, stays);
+      // Both parts of an arc are arcs of the same curvature, and the path does not change. A straight segment, the
+      // first one behind a kink, has turned since it was so long; what stays of it ends where the tip has been.
+      const PlaceOnWay place = tip.now.segment_start ? place_on_arc(start.anchor, *tip.now.segment_start, end, stays)
+                                                     : place_on_way(start.anchor, tip.now.way, stays);
       start.anchor = place.position;
       start.covered = (end - start.anchor).norm();
       start.angle = angle_of(end - start.anchor);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -14,6 +15,8 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
+constexpr double wanted_turn = 0.08;     ///< rad, of the path at a tip in one step
+constexpr double least_turn = 0.02;      ///< rad in the last step, below which the next one is not expected to turn far
 
 }  // namespace
 
@@ -55,10 +58,16 @@ bool Tips::grows_on() const {
 }
 
 double Tips::longest_step() const {
-  double fastest = 0;
-  for (const Tip& tip : tips_)
-    if (grows_within_steps_ && !tip.now.is_stopped) fastest = std::max(fastest, tip.now.speed);
-  return fastest > 0 ? wanted_advance * options_.growth.increment / fastest : std::numeric_limits<double>::infinity();
+  double longest = std::numeric_limits<double>::infinity();
+  for (const Tip& tip : tips_) {
+    if (!grows_within_steps_ || tip.now.is_stopped || tip.now.speed == 0) continue;
+    longest = std::min(longest, wanted_advance * options_.growth.increment / tip.now.speed);
+    // The end of an arc whose start is fixed turns twice as far as its chord.
+    const double turning = (tip.now.segment_start ? 2 : 1) * std::abs(tip.now.turning) * tip.now.speed;  // rad/s
+    if (tip.now.is_extendable && turning * tip.now.lasted > least_turn)
+      longest = std::min(longest, wanted_turn / turning);
+  }
+  return longest;
 }
 
 std::unique_ptr<FrontSearch> Tips::search_front(const StepTime& step, bool may_shrink, bool goes_on) {

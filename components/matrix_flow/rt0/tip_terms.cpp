@@ -10,21 +10,10 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-/// The side of the fracture on which a cell lies; 0 where it does not touch the fracture but at the tip.
-int side_of(const EndFrame& frame, const Mesh& mesh, int cell) {
-  if (const int side = frame.side_of_cell(mesh, cell); side != 0) return side;
-  for (const int node : mesh.cell_nodes[cell]) {
-    if (mesh.nodes[node] == frame.origin()) continue;
-    for (const int face : mesh.node_faces[node])
-      if (mesh.face_fracture_cell[face] != none) return frame.side_of_wall(mesh, face);
-  }
-  return 0;
-}
-
 TipTerm term_of(const TipFlow& flow, const Mesh& mesh, int cell, const std::vector<Tensor>& mobility,
                 const FluxMass& mass) {
   const Ring& faces = mesh.cell_faces[cell];
-  const int side = side_of(flow.frame(), mesh, cell);
+  const int side = flow.frame().side_of_cell(mesh, cell);
   Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 4, 2> fluxes(faces.size(), 2), drops(faces.size(), 2);
   for (int k = 0; k < faces.size(); ++k) {
     double conductance = 0, cells = 0;

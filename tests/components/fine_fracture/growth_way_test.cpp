@@ -23,10 +23,9 @@ TEST(WayOfTip, IsExactWhereTheDirectionIsLinearInTheDistance) {
       std::vector<PlaceOnWay> way;
       for (const double length : {4e-3, 9e-3, 9.5e-3, 17e-3}) way.push_back({on_spiral(length), start});
       for (const double length : {4e-3, 6e-3, 9e-3, 9.2e-3, 12e-3, 17e-3})
-        EXPECT_LT((place_on_way(anchor, {}, way, length).position - on_spiral(length)).norm(), 1e-15) << turned;
-      // Up to the first place the segment is straight, or turns from where it started.
-      EXPECT_LT((place_on_way(anchor, {}, way, 1e-3).position - at(1e-3, turned + bend * 4e-3)).norm(), 1e-15);
-      EXPECT_LT((place_on_way(anchor, start, way, 1e-3).position - on_spiral(1e-3)).norm(), 1e-15) << turned;
+        EXPECT_LT((place_on_way(anchor, way, length).position - on_spiral(length)).norm(), 1e-15) << turned;
+      // Up to the first place the segment is straight.
+      EXPECT_LT((place_on_way(anchor, way, 1e-3).position - at(1e-3, turned + bend * 4e-3)).norm(), 1e-15);
     }
 }
 
@@ -49,9 +48,9 @@ TEST(WayOfTip, IsOfSecondOrderOnACircle) {
       std::vector<PlaceOnWay> way;
       for (int i = 1; i <= steps; ++i) way.push_back(circle.after(16e-3 * i / steps));
       double worst = 0, most = 0;
-      for (double arc = 1e-3; arc < 15.9e-3; arc += 0.05e-3) {
+      for (double arc = 4.01e-3; arc < 15.9e-3; arc += 0.05e-3) {
         const PlaceOnWay exact = circle.after(arc);
-        const PlaceOnWay found = place_on_way(anchor, circle.after(0).direction, way, (exact.position - anchor).norm());
+        const PlaceOnWay found = place_on_way(anchor, way, (exact.position - anchor).norm());
         worst = std::max(worst, (found.position - exact.position).norm());
         most = std::max(most, (found.direction - exact.direction).norm());
       }
@@ -72,6 +71,23 @@ TEST(MiddleOfArc, HasTheTangentsOfACircleAtBothEnds) {
     EXPECT_LT(((middle - anchor).normalized() - start.direction).norm(), 1e-6);
     EXPECT_LT(((end.position - middle).normalized() - end.direction).norm(), 1e-6);
     EXPECT_NEAR((middle - anchor).norm(), (end.position - middle).norm(), 1e-9);
+  }
+}
+
+/// An arc is divided on itself: its parts have the directions of the whole one at all ends.
+TEST(PlaceOnArc, LiesOnTheCircleWithItsDirection) {
+  for (const Circle circle : {Circle{40, 3.0}, Circle{-25, -0.4}, Circle{1e-4, 0.2}}) {
+    const PlaceOnWay start = circle.after(0), end = circle.after(0.02);
+    EXPECT_LT((place_on_arc(anchor, start.direction, end.position, 0.0).direction - start.direction).norm(), 1e-10);
+    for (const double arc : {0.003, 0.011, 0.0199}) {
+      const PlaceOnWay exact = circle.after(arc);
+      const PlaceOnWay found = place_on_arc(anchor, start.direction, end.position, (exact.position - anchor).norm());
+      EXPECT_LT((found.position - exact.position).norm(), 1e-12);
+      EXPECT_LT((found.direction - exact.direction).norm(), 1e-9);
+      const double rest = (end.position - found.position).norm();
+      EXPECT_LT((place_on_arc(found.position, found.direction, end.position, rest).direction - end.direction).norm(),
+                1e-6);
+    }
   }
 }
 

@@ -1,6 +1,10 @@
 // Values that go over to a mesh that has grown.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
 #include "framework/scene/change_mesh.hpp"
@@ -148,6 +152,77 @@ TEST(TransferFields, WhatIsSmoothIsTransferredToSecondOrder) {
   }
   EXPECT_GT(off_by_means, 0);
   EXPECT_LT(off, 0.1 * off_by_means);
+}
+
+/// A part that knows what a field is within the cells of a mesh: linear on the n^2 triangles of each.
+class Knowing : public Part {
+ public:
+  Knowing(const Mesh& mesh, int n, double weight, const std::function<double(const Point&)>& value) {
+    for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+      const Ring& ring = mesh.cell_nodes[cell];
+      EXPECT_EQ(ring.size(), 3u);
+      const Point &a = mesh.nodes[ring[0]], ab = mesh.nodes[ring[1]] - a, ac = mesh.nodes[ring[2]] - a;
+      const auto at = [&](int i, int k) { return Point(a + double(i) / n * ab + double(k) / n * ac); };
+      const auto add = [&](const Point& one, const Point& two, const Point& three) {
+        pieces_[cell].push_back({{one, two, three}, {value(one), value(two), value(three)}, weight});
+      };
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; i + k < n; ++k) {
+          add(at(i, k), at(i + 1, k), at(i, k + 1));
+          if (i + k + 1 < n) add(at(i + 1, k), at(i + 1, k + 1), at(i, k + 1));
+        }
+    }
+  }
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly&, const StepTime&) const override {}
+  void add_known_within_cells(const Field& field, LinearPieces& pieces) const override {
+    if (field.name() == "part.value") pieces.insert(pieces_.begin(), pieces_.end());
+  }
+  /// The means of the cells.
+  Vector means() const {
+    Vector means(pieces_.size());
+    for (const auto& [cell, pieces] : pieces_) {
+      means[cell] = 0;
+      for (const LinearPiece& piece : pieces)
+        means[cell] += (piece.values[0] + piece.values[1] + piece.values[2]) / 3 / pieces.size();
+    }
+    return means;
+  }
+
+ private:
+  LinearPieces pieces_;
+};
+
+/// Around a tip at which sqrt(r) begins: new cells have its means, which linear functions in whole cells do not give.
+TEST(TransferFields, WhatIsKnownWithinCellsGoesOver) {
+  const Case c = grown_at_first_point();
+  const Point tip(0.5, 0.5);
+  const auto root = [&](const Point& x) { return std::sqrt((x - tip).norm()); };
+  const auto moved = [&](double weight) {
+    Knowing known(c.mesh, 8, weight, root);
+    FieldStore before, after;
+    before.add(c.mesh, spec(Location::cell)).set_both(known.means());
+    Field& field = after.add(c.grown.mesh, spec(Location::cell));
+    transfer_fields(before, c.grown.change, c.mesh, c.grown.mesh, after, {&known});
+    return Vector(field.accepted());
+  };
+  const Vector exact = Knowing(c.grown.mesh, 64, 1, root).means(), old = Knowing(c.mesh, 8, 1, root).means();
+  const Vector plain = transfer(c, spec(Location::cell), old).accepted, known = moved(1), half = moved(0.5);
+  double off = 0, off_when_linear = 0, total = 0, total_before = 0;
+  for (int i = 0; i < c.grown.mesh.cell_count(); ++i) {
+    total += c.grown.mesh.cell_measure[i] * known[i];
+    EXPECT_NEAR(half[i], (known[i] + plain[i]) / 2, 1e-14);
+    if (const int from = c.grown.change.cell[i]; from != none) {
+      EXPECT_EQ(known[i], old[from]);
+      continue;
+    }
+    off = std::max(off, std::abs(known[i] - exact[i]));
+    off_when_linear = std::max(off_when_linear, std::abs(plain[i] - exact[i]));
+  }
+  for (int i = 0; i < c.mesh.cell_count(); ++i) total_before += c.mesh.cell_measure[i] * old[i];
+  EXPECT_NEAR(total, total_before, 1e-13 * total_before);
+  EXPECT_LT(off, 0.01 * std::sqrt(size));
+  EXPECT_GT(off_when_linear, 5 * off);
 }
 
 /// The old fracture cell with the same middle, found by place.
