@@ -11,6 +11,7 @@ import unittest
 
 from cracks import A, CrackScenes, crack, in_metres, remote, wings
 from scene_runs import ROOT, SceneRuns
+from wings import VALUES_OF_PAPER
 
 STIFFNESS = "stiffness: {xxxx: 44 GPa, yyyy: 40 GPa, xxyy: 11 GPa, xyxy: 17 GPa, xxxy: 0 GPa, yyxy: 0 GPa}"
 
@@ -164,12 +165,12 @@ class Paper(SceneRuns):
     def test_section_5_2_to_three_hours(self):
         scene, swap = ROOT / "configs/paper/wing_cracks.yaml", "components.tips.type=fine_fracture/boundary_element"
         for update in ("after_step", "within_step"):
-            settings = [f"schedule.1.update={update}", "time.end=3 h"]
+            settings = [*VALUES_OF_PAPER, f"schedule.1.update={update}", "time.end=3 h"]
             mine, other = (self.run_scene(scene, *settings, *more).rows[-1] for more in ([swap], []))
             self.assertLess(abs(mine["p_C"] / other["p_C"] - 1), 1e-3, update)
             self.assertGreater(mine["tips.main_last.length"], 0.01)
             if update == "within_step":
-                settings = (swap, "time.end=1 h")
+                settings = (*VALUES_OF_PAPER, swap, "time.end=1 h")
                 plain = self.run_scene(scene, *settings).rows[-1]
                 moved = self.run_scene(scene, *settings, "components.conduit.injection.well.rate.value=5.000000005e-9 m^2/s").rows[-1]
                 # K of either run is at the toughness to 1e-7 (load_tolerance), so the lengths agree no better: 1.6e-7 measured.

@@ -12,6 +12,7 @@ from math import cos, pi, radians, sin, tan
 
 import numpy as np
 from scene_runs import ROOT, SceneRuns, on_two_processes, sprekk
+from wings import VALUES_OF_PAPER
 
 # Three fractures, two of which meet, in rock that is pressed and sheared, with fluid that is injected into one of them.
 SCENE = """
@@ -181,7 +182,7 @@ class ContactsBesideEachOther(SceneRuns):
         scene_text = scene_text.replace("angle: 45 deg}", "angle: 45 deg}\n    joint: {points: [[1.3 m, 0.6 m], [1.55 m, 0.7 m]]}")
         beside = (scene_text.replace("type: contact/coulomb", "{type: contact/coulomb, fractures: [main]}\n  joints: {type: contact/coulomb, fractures: [joint]}")
                   .replace("  contact:\n    {", "  contact: {").replace("contact]", "contact, joints]").replace("contact, conduit]", "contact, joints, conduit]"))
-        alone, two_contacts = (self.run_text(text, "time.end=5 h", "output.fields=false") for text in (scene_text, beside))
+        alone, two_contacts = (self.run_text(text, *VALUES_OF_PAPER, "time.end=5 h", "output.fields=false") for text in (scene_text, beside))
         self.assert_same(two_contacts, alone, 1e-7)
         self.assertGreater(alone.history["tips.main_last.length[m]"][-1], 5e-3)
 

@@ -12,7 +12,8 @@ from wings import SCENE, WITHIN_STEPS
 RATE = 5.0e-9  # m^2/s
 OVERLAY = WITHIN_STEPS + """
 mesh: {size: 0.4 m, fracture_size: 20 mm, growth: 0.5}
-time: {end: 5 h}
+components: {tips: {size: 0.5 m, growth: {increment: 10 mm, front_tolerance: 1e-7}}}
+time: {end: 5 h, step: 1 h}
 output: {fields: false}
 """
 

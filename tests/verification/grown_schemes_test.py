@@ -6,8 +6,8 @@ are those of the monolithic scheme."""
 import unittest
 
 from scene_runs import ROOT, SceneRuns
+from wings import SCENE, VALUES_OF_PAPER
 
-WINGS = ROOT / "configs/paper/wing_cracks.yaml"
 IN_TURN = "{{iterate: {{fallback: none, until: {{relative: 1e-10, at_most: 100}}, {}steps: [{}]}}}}"
 SCHEMES = {
     "fixed stress": IN_TURN.format("accelerate: {anderson: 5}, ", "{solve: [pore, conduit], stabilize: fixed_stress}, {solve: [rock, contact]}"),
@@ -38,12 +38,12 @@ class GrownSchemes(SceneRuns):
     timeout = 600
 
     def test_section_5_2_of_the_paper(self):
-        settings = ("time.end=12 h", "output.fields=false")
-        truth = self.run_scene(WINGS, *settings)
+        settings = (*VALUES_OF_PAPER, "time.end=12 h", "output.fields=false")
+        truth = self.run_scene(SCENE, *settings)
         for length in LENGTHS:
             self.assertGreater(truth.rows[-1][length], 0.02)
         for name, scheme in SCHEMES.items():
-            ours = self.run_scene(WINGS, *settings, f"schedule=[{scheme}, {GROW}, update: within_step}}]")
+            ours = self.run_scene(SCENE, *settings, f"schedule=[{scheme}, {GROW}, update: within_step}}]")
             self.assertEqual(len(ours.rows), len(truth.rows))
             worst = {"time": 0, "length": 0, "pressure": 0}
             for one, other in zip(truth.rows, ours.rows):

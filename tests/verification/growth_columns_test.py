@@ -6,7 +6,7 @@ import math
 import unittest
 
 from scene_runs import SceneRuns, sprekk
-from wings import SCENE, WITHIN_STEPS
+from wings import SCENE, VALUES_OF_PAPER, WITHIN_STEPS
 
 FRACTURE = 0.1  # m, before growth
 TIPS = ("tips.main_first", "tips.main_last")
@@ -20,7 +20,7 @@ def segments(grid):
 class GrowthColumns(SceneRuns):
     def check(self, overlay, *settings):
         scenes = [SCENE, self.write(overlay, "overlay.yaml")] if overlay else [SCENE]
-        results = self.run_scene(scenes, "time.end=2.5h", "output.every=15min", *settings)
+        results = self.run_scene(scenes, *VALUES_OF_PAPER, "time.end=2.5h", "output.every=15min", *settings)
         for column, unit in (("x", "m"), ("y", "m"), ("speed", "m/s"), ("grows", "1")):
             for tip in TIPS:
                 self.assertIn(f"{tip}.{column}[{unit}]", results.history)

@@ -5,7 +5,7 @@ substeps tend to the same answer with the step, and a step in which a `when` lea
 import unittest
 
 from scene_runs import SceneRuns
-from wings import COUPLERS, SCENE
+from wings import COUPLERS, SCENE, VALUES_OF_PAPER
 
 HOUR = 3600
 SWITCH, END = 4400, 6400  # s: both wings have grown within steps before, and the step in between is not cut
@@ -34,7 +34,7 @@ class GrowthSchemes(SceneRuns):
         """history.csv of a run with this schedule; steps end `at` these times (s), too."""
         times = ", ".join(f"{time} s" for time in (SWITCH, *at))
         scheme = f"{COUPLERS}schedule: [{schedule}]\ntime: {{end: {end} s}}\noutput: {{fields: false, times: [{times}]}}\n"
-        return cls.run_scene([SCENE, cls.write(scheme, "scheme.yaml")]).rows
+        return cls.run_scene([SCENE, cls.write(scheme, "scheme.yaml")], *VALUES_OF_PAPER).rows
 
     def test_an_iterated_scheme_finds_the_advance_of_the_monolithic_one(self):
         together, first = self.together, self.first

@@ -8,15 +8,15 @@ import time
 import unittest
 
 from scene_runs import SceneRuns, sprekk
-from wings import SCENE, TAKEN_OVER, WITHIN_STEPS
+from wings import SCENE, TAKEN_OVER, VALUES_OF_PAPER, WITHIN_STEPS
 
 TOUGHNESS = 0.7e6  # Pa m^0.5, of the scene
 
 
 class GrowthWithinSteps(SceneRuns):
     def test_tips_rest_at_their_toughness(self):
-        scenes, end = [SCENE, self.write(WITHIN_STEPS, "within.yaml")], "time.end=4 h"
-        results = self.run_scene(scenes, end)
+        scenes, settings = [SCENE, self.write(WITHIN_STEPS, "within.yaml")], (*VALUES_OF_PAPER, "time.end=4 h")
+        results = self.run_scene(scenes, *settings)
         rows = results.rows
         followed = [row for row in rows if min(row["tips.main_first.length"], row["tips.main_last.length"]) > TAKEN_OVER]
         self.assertGreater(len(followed), 4)
@@ -44,7 +44,7 @@ class GrowthWithinSteps(SceneRuns):
         for row in rows:
             self.assertLess(abs(row["fluid_balance_error"]), 1e-9 * row["fluid_injected"])
         # An interrupted run that goes on has the same bits.
-        run = subprocess.Popen(self.command(["run", "-q", "-o", self.folder / "again"], scenes, end), stderr=subprocess.DEVNULL)
+        run = subprocess.Popen(self.command(["run", "-q", "-o", self.folder / "again"], scenes, *settings), stderr=subprocess.DEVNULL)
         history = self.folder / "again/history.csv"
         for _ in range(2000):
             if run.poll() is not None or (history.exists() and len(history.read_text().splitlines()) > 14):
@@ -53,7 +53,7 @@ class GrowthWithinSteps(SceneRuns):
         run.send_signal(signal.SIGINT)
         run.wait(timeout=100)
         self.assertLess(len(sprekk.Results(self.folder / "again").times), len(rows))
-        self.run_scene(scenes, end, restart=self.folder / "again")
+        self.run_scene(scenes, *settings, restart=self.folder / "again")
         self.assertEqual(history.read_text(), (results.folder / "history.csv").read_text())
 
 

@@ -14,7 +14,7 @@ inline std::vector<Override> with_values_of_paper(const std::vector<Override>& m
   std::vector<Override> all = {{"time.step", "1 h"},
                                {"mesh.size", "0.1 m"},
                                {"components.tips.size", "0.5 m"},
-                               {"components.tips.growth", "{increment: 10 mm}"}};
+                               {"components.tips.growth", "{increment: 10 mm, front_tolerance: null}"}};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
