@@ -140,11 +140,13 @@ class TwoLevel : public Coupler, public TipSurroundings {
   /// The pressure near tips, which moves into new cells with the shape that loads the fine level.
   void add_known_within_cells(const Field& field, LinearPieces& pieces) const override {
     if (options_.pore_pressure != "near_tips" || &field != pressure_by_exchange()) return;
+    const LinearExpression& at_walls = fluid_->rock_walls()->wall_pressure();
+    if (at_walls.constant.size() == 0) return;  // no step has begun
     NodalValues fit(mesh_, NodalValues::From::cells);
     fit.set(1, field.accepted(), {});
     PressureNearTips near_tips(mesh_);
     near_tips.set(
-        {field.accepted(), pressures_at_walls(fluid_->rock_walls()->wall_pressure().accepted()), fit.of_nodes(0)});
+        {field.accepted(), pressures_at_walls(at_walls.accepted()), fit.of_nodes(0)});
     near_tips.add_pieces(pieces);
   }
 
