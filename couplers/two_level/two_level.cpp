@@ -145,8 +145,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
     NodalValues fit(mesh_, NodalValues::From::cells);
     fit.set(1, field.accepted(), {});
     PressureNearTips near_tips(mesh_);
-    near_tips.set(
-        {field.accepted(), pressures_at_walls(at_walls.accepted()), fit.of_nodes(0)});
+    near_tips.set({field.accepted(), pressures_at_walls(at_walls.accepted()), fit.of_nodes(0)});
     near_tips.add_pieces(pieces);
   }
 
