@@ -110,6 +110,28 @@ std::pair<double, double> clipped(const Rectangle& box, const Point& from, const
   return {first, last};
 }
 
+/// The sides of the rock that are not on those of its bounding box.
+std::vector<Segment> slanted_sides(const Mesh& mesh, const Rectangle& bounds) {
+  const double near = rounding * (bounds.high - bounds.low).maxCoeff();
+  std::vector<Segment> sides;
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    if (mesh.face_cells[face][1] != none || mesh.face_fracture_cell[face] != none) continue;
+    const Segment side{mesh.nodes[mesh.face_nodes[face][0]], mesh.nodes[mesh.face_nodes[face][1]]};
+    if (bounds.depth(0.5 * (side.from + side.to)) > near) sides.push_back(side);
+  }
+  return sides;
+}
+
+/// Whether none of the sides enters the box.
+bool is_in_rock(const Rectangle& box, const std::vector<Segment>& sides) {
+  const Point inwards = rounding * (box.high - box.low);
+  const Rectangle inside{box.low + inwards, box.high - inwards};
+  return std::ranges::none_of(sides, [&](const Segment& side) {
+    const auto [first, last] = clipped(inside, side.from, side.to);
+    return first < last;
+  });
+}
+
 /// Moves a point that is near the outline exactly onto it.
 Point snapped(const Rectangle& box, Point x) {
   const double near = rounding * (box.high - box.low).maxCoeff();
@@ -221,16 +243,27 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
   double widest = -1;
   constexpr double more = 1 + 1e-9;  // exceeds rounding, so that domains of mirrored scenes are mirrored
   if (outline) box = {(*outline)[0], (*outline)[2]};
-  // A domain is made larger by small steps until no side is near to a fracture.
-  constexpr double step = 0.02;
-  for (double factor = 1; !outline && factor < largest_enlargement && widest * more < gap; factor += step) {
+  const std::vector<Segment> sides = outline ? std::vector<Segment>() : slanted_sides(mesh, rock);
+  const auto try_factor = [&](double factor) {
     const Point half = Point::Constant(0.5 * factor * size);
-    const Rectangle larger{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
-    const double found = smallest_gap(larger, rock, paths, places);
-    if (found <= widest * more) continue;
+    const Rectangle other{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
+    if (!is_in_rock(other, sides)) return false;
+    const double found = smallest_gap(other, rock, paths, places);
+    if (found <= widest * more) return true;
     widest = found;
-    box = larger;
-  }
+    box = other;
+    return true;
+  };
+  // A domain is made larger by small steps until no side is near to a fracture, and smaller where it would leave the
+  // rock.
+  constexpr double step = 0.02;
+  for (double factor = 1; !outline && factor < largest_enlargement && widest * more < gap; factor += step)
+    if (!try_factor(factor)) break;
+  if (widest < 0)
+    for (double factor = 1 - step; !outline && factor > 0.5 * step && widest * more < gap; factor -= step)
+      try_factor(factor);
+  if (!outline && widest < 0)
+    throw std::runtime_error("the square of a tip does not fit into the rock; make 'size' of the tips smaller");
   FineDomain domain;
   domain.geometry.outline = {box.low, {box.high[0], box.low[1]}, box.high, {box.low[0], box.high[1]}};
   for (int f = 0; f < static_cast<int>(paths.size()); ++f) {

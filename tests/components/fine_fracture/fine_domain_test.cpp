@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/mesh/build_mesh.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::test {
@@ -427,6 +428,36 @@ TEST(FineDomain, RefusesASquareWithoutTheTip) {
   const Mesh mesh = rock_with({{Point(0.5, 0.5), Point(1, 0.5)}});
   EXPECT_THROW(fine_domain(mesh, paths_of(mesh), {0, true}, Point(0.5, 0.5), 0.4, gap, Walls::traction),
                std::runtime_error);
+}
+
+// A rock that is turned is not its bounding box: squares stay in it, and are as large as they can be.
+TEST(FineDomain, StaysInRockWithSlantedSides) {
+  const Point middle(1, 0.5);
+  for (const double angle : {30.0, -20.0, 45.0, 90.0, 0.0}) {
+    const double c = std::cos(angle * std::numbers::pi / 180), s = std::sin(angle * std::numbers::pi / 180);
+    const auto turned = [&](const Point& x, double sense) {
+      const Point off = x - middle;
+      return Point(middle + Point(c * off[0] - sense * s * off[1], sense * s * off[0] + c * off[1]));
+    };
+    RawMesh raw = to_raw_mesh(rock_with({{Point(0.9, 0.5), Point(1.1, 0.5)}}));
+    for (Point& x : raw.nodes) x = turned(x, 1);
+    const Mesh mesh = build_mesh(raw);
+    const Point tip = turned({1.1, 0.5}, 1);
+    // A square of this side touches the long sides of the rock.
+    const double largest = 1 / (std::abs(c) + std::abs(s));
+    for (const double size : {0.2, 0.6, 1.5}) {
+      const FineDomain domain = fine_domain(mesh, paths_of(mesh), {0, true}, tip, size, gap, Walls::traction);
+      const std::vector<Point>& outline = domain.geometry.outline;
+      for (std::size_t i = 0; i < 4; ++i)
+        for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+          const Point x = turned(outline[i] + part * (outline[(i + 1) % 4] - outline[i]), -1);
+          EXPECT_GT(std::min({x[0], x[1], 2 - x[0], 1 - x[1]}), -1e-8) << angle << ", " << size;
+        }
+      const double side = (outline[2] - outline[0]).minCoeff();
+      EXPECT_LE(side, std::min(size, largest) * (1 + 1e-8));
+      EXPECT_GE(side, std::min(size, largest) - 0.02 * size - 1e-8) << angle << ", " << size;
+    }
+  }
 }
 
 }  // namespace
