@@ -74,9 +74,9 @@ class LinearInCells {
   std::map<int, Gradient> gradients_;       ///< by cell, computed when they are needed
 };
 
-/// The mean over what a new cell has in common with an old one, which has a common area with it.
+/// The mean over what a new cell has in common with an old one.
 double mean_of_pieces(const std::vector<LinearPiece>& pieces, const Corners& cell, int old_cell,
-                      LinearInCells& linear) {
+                      const Corners& old_corners, LinearInCells& linear) {
   double sum = 0, area = 0;
   for (const LinearPiece& piece : pieces) {
     const CommonPart part = common_part(cell, {piece.corners[0], piece.corners[1], piece.corners[2]});
@@ -85,8 +85,8 @@ double mean_of_pieces(const std::vector<LinearPiece>& pieces, const Corners& cel
     sum += part.area * piece.weight * piece.at(part.centre);
     if (piece.weight < 1) sum += part.area * (1 - piece.weight) * linear.at(old_cell, part.centre)[0];
   }
-  SPREKK_ASSERT(area > 0, old_cell);
-  return sum / area;
+  // Of a common part that is a line but for rounding the pieces may have nothing.
+  return area > 0 ? sum / area : linear.at(old_cell, common_part(cell, old_corners).centre)[0];
 }
 
 }  // namespace
@@ -118,11 +118,12 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
         value += entry.value() / old_mesh.cell_measure[from] * old.accepted().segment(from * components, components);
         continue;
       }
+      const Corners old_corners = corners_of(old_mesh.nodes, old_mesh.cell_nodes[from]);
       if (const auto pieces = known.find(from); pieces != known.end()) {
-        value[0] += entry.value() / area * mean_of_pieces(pieces->second, corners, from, linear);
+        value[0] += entry.value() / area * mean_of_pieces(pieces->second, corners, from, old_corners, linear);
         continue;
       }
-      const Point centre = common_centre(corners, corners_of(old_mesh.nodes, old_mesh.cell_nodes[from]));
+      const Point centre = common_centre(corners, old_corners);
       value += entry.value() / area * linear.at(from, centre);
     }
   }

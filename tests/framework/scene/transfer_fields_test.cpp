@@ -8,6 +8,7 @@
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
 #include "framework/scene/change_mesh.hpp"
+#include "framework/scene/transferred_cells.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"
 
 namespace sprekk::test {
@@ -223,6 +224,19 @@ TEST(TransferFields, WhatIsKnownWithinCellsGoesOver) {
   EXPECT_NEAR(total, total_before, 1e-13 * total_before);
   EXPECT_LT(off, 0.01 * std::sqrt(size));
   EXPECT_GT(off_when_linear, 5 * off);
+}
+
+/// Where pieces have nothing in common with a new cell, as with a part that is a line but for rounding.
+TEST(TransferFields, PiecesThatAreElsewhereCountForNothing) {
+  const Case c = grown_at_first_point();
+  FieldStore before;
+  Field& field = before.add(c.mesh, spec(Location::cell));
+  field.set_both(varied(c.mesh.cell_count()));
+  LinearPieces known;
+  for (int i = 0; i < c.mesh.cell_count(); i += 2)
+    known[i] = {{{Point(5, 5), Point(6, 5), Point(5, 6)}, {1e9, 1e9, 1e9}, 1}};
+  const Vector plain = transferred_cells(field, c.grown.change, c.mesh, c.grown.mesh);
+  EXPECT_EQ(transferred_cells(field, c.grown.change, c.mesh, c.grown.mesh, known), plain);
 }
 
 /// The old fracture cell with the same middle, found by place.
