@@ -142,11 +142,12 @@ class TwoLevel : public Coupler, public TipSurroundings {
     if (options_.pore_pressure != "near_tips" || &field != pressure_by_exchange()) return;
     const LinearExpression& at_walls = fluid_->rock_walls()->wall_pressure();
     if (at_walls.constant.size() == 0) return;  // no step has begun
-    NodalValues fit(mesh_, NodalValues::From::cells);
-    fit.set(1, field.accepted(), {});
-    PressureNearTips near_tips(mesh_);
-    near_tips.set({field.accepted(), pressures_at_walls(at_walls.accepted()), fit.of_nodes(0)});
-    near_tips.add_pieces(pieces);
+    // Trials of a step ask for the same accepted state on the same mesh.
+    if (!accepted_fit_) accepted_fit_.emplace(mesh_, NodalValues::From::cells);
+    if (!accepted_near_tips_) accepted_near_tips_.emplace(mesh_);
+    accepted_fit_->set(1, field.accepted(), {});
+    accepted_near_tips_->set({field.accepted(), pressures_at_walls(at_walls.accepted()), accepted_fit_->of_nodes(0)});
+    accepted_near_tips_->add_pieces(pieces);
   }
 
   std::uint64_t version() const override {
@@ -357,6 +358,8 @@ class TwoLevel : public Coupler, public TipSurroundings {
   mutable int last_cell_ = none;  ///< the cell of the last place that was looked for: the next is often in it, too
   NodalValues displacement_, pore_stress_;
   mutable std::optional<PressureNearTips> near_tips_;  ///< once a fluid that passes the walls is known to load the rock
+  mutable std::optional<NodalValues> accepted_fit_;    ///< as pore_stress_, of the accepted pressure alone
+  mutable std::optional<PressureNearTips> accepted_near_tips_;  ///< as near_tips_, of the accepted pressure
   std::vector<AlongFracture> along_;
   Vector traction_, jump_, fluid_traction_;
   std::uint64_t updated_for_ = 0;
