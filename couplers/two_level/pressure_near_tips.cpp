@@ -1,6 +1,7 @@
 #include "couplers/two_level/pressure_near_tips.hpp"
 
-#include <Eigen/SparseLU>
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -59,7 +60,10 @@ struct PressureNearTips::Region {
   std::vector<bool> conducting;
   std::vector<int> unknown;  ///< of each node, or none
   Matrix by_given;  ///< what nodes with values contribute to the equations of the others, and to the means of the cells
-  Eigen::SparseLU<Matrix> factors;
+  Eigen::SimplicialLLT<Matrix> stiffness;  ///< of the unknown nodes
+  Matrix means;                            ///< of the cells, by the unknown nodes
+  Eigen::MatrixXd responses;               ///< of the unknown nodes to a source in each cell
+  Eigen::LLT<Eigen::MatrixXd> sources_by_means;
 
   std::optional<Vector> solution;
   double weight = 1;
@@ -227,9 +231,9 @@ void PressureNearTips::Region::factorize(const std::vector<std::optional<double>
   int count = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (!conducting[i]) unknown[i] = count++;
-  // The least integral of the squared gradient under the condition that each cell has its mean: after the unknown nodes
-  // come the multipliers of these conditions.
-  std::vector<Triplet> entries, given;
+  // The least integral of the squared gradient under the condition that each cell has its mean; the multipliers of
+  // these conditions are sources in the cells. In by_given, the means come after the unknown nodes.
+  std::vector<Triplet> entries, given, of_means;
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (const std::array<int, 3>& t : triangles[c]) {
       const Point ab = nodes[t[1]] - nodes[t[0]], ac = nodes[t[2]] - nodes[t[0]];
@@ -245,8 +249,7 @@ void PressureNearTips::Region::factorize(const std::vector<std::optional<double>
           given.emplace_back(mean, t[i], part);
           continue;
         }
-        entries.emplace_back(mean, row, part);
-        entries.emplace_back(row, mean, part);
+        of_means.emplace_back(static_cast<int>(c), row, part);
         for (int k = 0; k < 3; ++k) {
           const double value = opposite[i].dot(opposite[k]) / (4 * area);
           if (unknown[t[k]] == none)
@@ -256,13 +259,20 @@ void PressureNearTips::Region::factorize(const std::vector<std::optional<double>
         }
       }
     }
-  const int size = count + static_cast<int>(cells.size());
-  Matrix equations(size, size);
+  const int cell_count = static_cast<int>(cells.size());
+  Matrix equations(count, count);
   equations.setFromTriplets(entries.begin(), entries.end());
-  by_given.resize(size, static_cast<Eigen::Index>(nodes.size()));
+  means.resize(cell_count, count);
+  means.setFromTriplets(of_means.begin(), of_means.end());
+  by_given.resize(count + cell_count, static_cast<Eigen::Index>(nodes.size()));
   by_given.setFromTriplets(given.begin(), given.end());
-  factors.compute(equations);
-  if (factors.info() != Eigen::Success) throw std::runtime_error("the pressure around a tip is not determined");
+  stiffness.compute(equations);
+  if (stiffness.info() == Eigen::Success) {
+    responses = stiffness.solve(Eigen::MatrixXd(means.transpose()));
+    sources_by_means.compute(means * responses);
+  }
+  if (stiffness.info() != Eigen::Success || sources_by_means.info() != Eigen::Success)
+    throw std::runtime_error("the pressure around a tip is not determined");
 }
 
 void PressureNearTips::Region::solve(const Given& given) {
@@ -300,9 +310,9 @@ void PressureNearTips::Region::solve(const Given& given) {
   }
   Vector cell_means(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) cell_means[c] = given.cells[cells[c]];
-  Vector right = -(by_given * fixed);
-  right.tail(cell_means.size()) += cell_means;
-  const Vector found = factors.solve(right);
+  const Vector right = -(by_given * fixed);
+  Vector found = stiffness.solve(right.head(means.cols()));
+  found += responses * sources_by_means.solve(right.tail(means.rows()) + cell_means - means * found);
   solution = fixed;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (unknown[i] != none) (*solution)[i] = found[unknown[i]];

@@ -28,7 +28,7 @@ struct FracturePath {
 struct LastSegment {
   /// Whether it turns from trial to trial. Then its ends are points of the path, however small the bend there is.
   bool turns = false;
-  std::optional<Point> middle = {};  ///< a point (m) by which it bends; in arc length it is the middle
+  std::vector<Point> corners = {};  ///< m, of pieces in its place, towards the tip; end pieces have half the length
 };
 FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last,
                            const LastSegment& at_first = {}, const LastSegment& at_last = {});

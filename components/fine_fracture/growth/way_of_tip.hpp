@@ -25,9 +25,10 @@ PlaceOnWay place_on_way(const Point& anchor, const std::vector<PlaceOnWay>& way,
 /// than 0.8 rad is not followed.
 PlaceOnWay place_on_arc(const Point& anchor, const Point& start, const Point& end, double length);
 
-/// The middle point of two straight pieces that stand for an arc from the anchor to `end` which begins in the direction
-/// `start`: the intersection of its tangents, so that the second piece has the direction of the arc at its end. An arc
+/// The corners, from the anchor on, of straight pieces that stand for an arc from the anchor to `end` which begins in
+/// the direction `start`. The pieces are tangents of the arc at equal distances, with those at both ends among them:
+/// the last piece has the direction of the arc at its end. First and last one are half as long as the others. An arc
 /// that turns by more than 0.8 rad is not followed.
-Point middle_of_arc(const Point& anchor, const Point& start, const Point& end);
+std::vector<Point> corners_of_arc(const Point& anchor, const Point& start, const Point& end);
 
 }  // namespace sprekk::fine_fracture

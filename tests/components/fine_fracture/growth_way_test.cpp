@@ -64,13 +64,21 @@ TEST(WayOfTip, IsOfSecondOrderOnACircle) {
   }
 }
 
-TEST(MiddleOfArc, HasTheTangentsOfACircleAtBothEnds) {
+TEST(CornersOfArc, BelongToTangentsOfACircle) {
   for (const Circle circle : {Circle{40, 3.0}, Circle{-25, -0.4}, Circle{1e-4, 0.2}}) {
     const PlaceOnWay start = circle.after(0), end = circle.after(0.012);
-    const Point middle = middle_of_arc(anchor, start.direction, end.position);
-    EXPECT_LT(((middle - anchor).normalized() - start.direction).norm(), 1e-6);
-    EXPECT_LT(((end.position - middle).normalized() - end.direction).norm(), 1e-6);
-    EXPECT_NEAR((middle - anchor).norm(), (end.position - middle).norm(), 1e-9);
+    const std::vector<Point> corners = corners_of_arc(anchor, start.direction, end.position);
+    const int count = static_cast<int>(corners.size());
+    ASSERT_GE(count, 3);
+    EXPECT_LT(((corners[0] - anchor).normalized() - start.direction).norm(), 1e-6);
+    EXPECT_LT(((end.position - corners.back()).normalized() - end.direction).norm(), 1e-6);
+    EXPECT_NEAR((corners[0] - anchor).norm(), (end.position - corners.back()).norm(), 1e-9);
+    for (int i = 0; i + 1 < count; ++i) {
+      const PlaceOnWay touched = circle.after(0.012 * (i + 1) / count);
+      EXPECT_LT((0.5 * (corners[i] + corners[i + 1]) - touched.position).norm(), 1e-9);
+      EXPECT_LT(((corners[i + 1] - corners[i]).normalized() - touched.direction).norm(), 1e-6);
+      EXPECT_NEAR((corners[i + 1] - corners[i]).norm(), 2 * (corners[0] - anchor).norm(), 1e-9);
+    }
   }
 }
 
@@ -92,12 +100,22 @@ TEST(PlaceOnArc, LiesOnTheCircleWithItsDirection) {
 }
 
 /// A start that leads elsewhere: the arc does not become a loop.
-TEST(MiddleOfArc, TurnsByNoMoreThanSoMuch) {
+TEST(CornersOfArc, TurnByNoMoreThanSoMuch) {
   const Point end = anchor + Point(0.01, 0);
   for (const double angle : {0.5, 1.6, 3.1, -0.6, -2.5}) {
-    const Point middle = middle_of_arc(anchor, {std::cos(angle), std::sin(angle)}, end);
-    EXPECT_NEAR((middle - anchor)[0], 0.005, 1e-12);
-    EXPECT_NEAR((middle - anchor)[1], std::copysign(0.005 * std::tan(0.4), angle), 1e-12);
+    const std::vector<Point> corners = corners_of_arc(anchor, {std::cos(angle), std::sin(angle)}, end);
+    const auto angle_of = [](const Point& way) { return std::atan2(way[1], way[0]); };
+    EXPECT_NEAR(angle_of(corners[0] - anchor), std::copysign(0.4, angle), 1e-9);
+    EXPECT_NEAR(angle_of(end - corners.back()), -std::copysign(0.4, angle), 1e-9);
+  }
+}
+
+TEST(CornersOfArc, LieOnTheChordOfOneThatIsStraight) {
+  for (const Point& chord : {Point(0.01, 0), Point(0, -0.02), Point(3e-3, 4e-3)}) {
+    const std::vector<Point> corners = corners_of_arc(anchor, chord.normalized(), anchor + chord);
+    const double count = static_cast<double>(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      EXPECT_LT((corners[i] - anchor - (i + 0.5) / count * chord).norm(), 1e-12);
   }
 }
 
