@@ -94,6 +94,14 @@ void MatrixFlow::discretize() {
   use_operators();
 }
 
+void MatrixFlow::add_known_within_cells(const Field& field, KnownWithinCells& known) const {
+  if (&field != &pressure_ || is_sealed_ || wall_pressure().constant.size() == 0) return;  // or no step has begun
+  Vector at_walls = wall_pressure().accepted();
+  replicate(mesh_, Location::wall, 1, at_walls);
+  for (int wall = 0; wall < mesh_.wall_count(); ++wall)
+    if (is_behind_wall(wall)) known.at_faces[mesh_.wall_face(wall)] = at_walls[wall];
+}
+
 void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());

@@ -138,7 +138,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
   }
 
   /// The pressure near tips, which moves into new cells with the shape that loads the fine level.
-  void add_known_within_cells(const Field& field, LinearPieces& pieces) const override {
+  void add_known_within_cells(const Field& field, KnownWithinCells& known) const override {
     if (options_.pore_pressure != "near_tips" || &field != pressure_by_exchange()) return;
     const LinearExpression& at_walls = fluid_->rock_walls()->wall_pressure();
     if (at_walls.constant.size() == 0) return;  // no step has begun
@@ -147,7 +147,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
     if (!accepted_near_tips_) accepted_near_tips_.emplace(mesh_);
     accepted_fit_->set(1, field.accepted(), {});
     accepted_near_tips_->set({field.accepted(), pressures_at_walls(at_walls.accepted()), accepted_fit_->of_nodes(0)});
-    accepted_near_tips_->add_pieces(pieces);
+    accepted_near_tips_->add_pieces(known.pieces);
   }
 
   std::uint64_t version() const override {

@@ -11,7 +11,7 @@
 #include "framework/assembly/notes.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
-#include "framework/field/linear_pieces.hpp"
+#include "framework/field/known_within_cells.hpp"
 #include "framework/field/output_field.hpp"
 #include "framework/output/profile_entry.hpp"
 
@@ -77,7 +77,7 @@ class Part {
   virtual void rewound() {}
   /// Adds what the part knows of the accepted values of a field within cells, beside their means. New cells take it
   /// over when the mesh changes (transferred_cells).
-  virtual void add_known_within_cells(const Field& /*field*/, LinearPieces& /*pieces*/) const {}
+  virtual void add_known_within_cells(const Field& /*field*/, KnownWithinCells& /*known*/) const {}
   /// Called on a part that has been built on a changed mesh, after its fields have received their values. Copies the
   /// state outside of fields from `before`, the same part on the old mesh, and gives new entities their initial state.
   virtual void carry_over(const Part& /*before*/, const MeshChange& /*change*/) {}

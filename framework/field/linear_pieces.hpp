@@ -1,4 +1,4 @@
-// What is known of a field within cells, beside the means of the cells.
+// A field within cells, as linear functions on parts of them.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
     Vector values = field->accepted();
     switch (field->spec().location) {
       case Location::cell: {
-        LinearPieces known;
+        KnownWithinCells known;
         if (has_new_cells && !old.spec().is_amount)
           for (const Part* part : old_parts) part->add_known_within_cells(old, known);
         values = transferred_cells(old, change, old_mesh, new_mesh, known);

@@ -14,8 +14,8 @@ namespace {
 /// Values that are linear within the cells of a mesh, with their means.
 class LinearInCells {
  public:
-  LinearInCells(const Mesh& mesh, const Vector& means, int components)
-      : mesh_(mesh), means_(means), components_(components), cells_at_(mesh.nodes.size()) {
+  LinearInCells(const Mesh& mesh, const Vector& means, int components, const std::map<int, double>& at_faces)
+      : mesh_(mesh), means_(means), components_(components), at_faces_(at_faces), cells_at_(mesh.nodes.size()) {
     for (int cell = 0; cell < mesh.cell_count(); ++cell)
       for (const int node : mesh.cell_nodes[cell]) cells_at_[node].push_back(cell);
   }
@@ -40,15 +40,21 @@ class LinearInCells {
     Gradient right = Gradient::Zero(components_, dimension);
     const Vector own = means_.segment(cell * components_, components_);
     Vector low = own, high = own;
-    for (const int other : around) {
-      if (other == cell || mesh_.cell_region[other] != mesh_.cell_region[cell]) continue;
-      const Vector value = means_.segment(other * components_, components_);
+    const auto fit = [&](const Point& x, const Vector& value) {
       low = low.cwiseMin(value);
       high = high.cwiseMax(value);
-      const Point way = mesh_.cell_center[other] - mesh_.cell_center[cell];
+      const Point way = x - mesh_.cell_center[cell];
       const double weight = 1 / way.squaredNorm();
       normal += weight * way * way.transpose();
       right += weight * (value - own) * way.transpose();
+    };
+    for (const int other : around) {
+      if (mesh_.cell_region[other] != mesh_.cell_region[cell]) continue;
+      if (other != cell) fit(mesh_.cell_center[other], means_.segment(other * components_, components_));
+      if (at_faces_.empty()) continue;
+      for (const int face : mesh_.cell_faces[other])
+        if (const auto known = at_faces_.find(face); known != at_faces_.end() && touches(face, cell))
+          fit(mesh_.face_center[face], Vector::Constant(1, known->second));
     }
     constexpr double least_determinant = 1e-6;  // over that of neighbours all around; less: they lie in one line
     const double half_trace = normal.trace() / dimension;
@@ -67,9 +73,16 @@ class LinearInCells {
     return gradient;
   }
 
+  bool touches(int face, int cell) const {
+    return std::ranges::any_of(mesh_.face_nodes[face], [&](int node) {
+      return std::ranges::find(mesh_.cell_nodes[cell], node) != std::end(mesh_.cell_nodes[cell]);
+    });
+  }
+
   const Mesh& mesh_;
   const Vector& means_;
   const int components_;
+  const std::map<int, double>& at_faces_;
   std::vector<std::vector<int>> cells_at_;  ///< by node
   std::map<int, Gradient> gradients_;       ///< by cell, computed when they are needed
 };
@@ -92,13 +105,13 @@ double mean_of_pieces(const std::vector<LinearPiece>& pieces, const Corners& cel
 }  // namespace
 
 Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh& old_mesh, const Mesh& new_mesh,
-                         const LinearPieces& known) {
-  SPREKK_EXPECT(known.empty() || old.spec().components == 1, old.name());
+                         const KnownWithinCells& known) {
+  SPREKK_EXPECT((known.pieces.empty() && known.at_faces.empty()) || old.spec().components == 1, old.name());
   const int components = old.spec().components;
   const bool is_amount = old.spec().is_amount;
   SPREKK_EXPECT(old.accepted().size() == static_cast<Eigen::Index>(old_mesh.cell_count()) * components, old.name());
   Vector values = Vector::Zero(static_cast<int>(change.cell.size()) * components);
-  LinearInCells linear(old_mesh, old.accepted(), components);
+  LinearInCells linear(old_mesh, old.accepted(), components, known.at_faces);
   // One row for each new cell: its overlap with old cells, divided by the areas of the old cells (for shares of
   // amounts) or by its own area (for a mean).
   const Eigen::SparseMatrix<double, Eigen::RowMajor> overlap = change.overlap;
@@ -119,7 +132,7 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
         continue;
       }
       const Corners old_corners = corners_of(old_mesh.nodes, old_mesh.cell_nodes[from]);
-      if (const auto pieces = known.find(from); pieces != known.end()) {
+      if (const auto pieces = known.pieces.find(from); pieces != known.pieces.end()) {
         value[0] += entry.value() / area * mean_of_pieces(pieces->second, corners, from, old_corners, linear);
         continue;
       }

@@ -13,6 +13,7 @@ namespace sprekk::testing {
 inline std::vector<Override> with_values_of_paper(const std::vector<Override>& more = {}) {
   std::vector<Override> all = {{"time.step", "1 h"},
                                {"mesh.size", "0.1 m"},
+                               {"mesh.growth", "0.2"},
                                {"components.tips.size", "0.5 m"},
                                {"components.tips.growth", "{increment: 10 mm, front_tolerance: null}"}};
   all.insert(all.end(), more.begin(), more.end());

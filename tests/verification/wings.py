@@ -5,7 +5,7 @@ from scene_runs import ROOT
 
 SCENE = ROOT / "configs/paper/wing_cracks.yaml"
 # Steps and sizes of the paper, and fronts to the default tolerance; the scene costs least for its error with others.
-VALUES_OF_PAPER = ("time.step=1 h", "mesh.size=0.1 m", "components.tips.size=0.5 m", "components.tips.growth={increment: 10 mm, front_tolerance: null}")
+VALUES_OF_PAPER = ("time.step=1 h", "mesh.size=0.1 m", "mesh.growth=0.2", "components.tips.size=0.5 m", "components.tips.growth={increment: 10 mm, front_tolerance: null}")
 TAKEN_OVER = 0.25 * 20e-3  # m: the length of a wing that the mesh follows
 COUPLERS = """
 couplers:

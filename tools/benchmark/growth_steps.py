@@ -75,7 +75,7 @@ def print_parts(folder):
 
 def measure(program, folder, again):
     held = "schedule.1.update=after_step"  # its kinds of steps are told apart
-    of_paper = ("time.step=1 h", "mesh.size=0.1 m", "components.tips.size=0.5 m", "components.tips.growth={increment: 10 mm, front_tolerance: null}")
+    of_paper = ("time.step=1 h", "mesh.size=0.1 m", "mesh.growth=0.2", "components.tips.size=0.5 m", "components.tips.growth={increment: 10 mm, front_tolerance: null}")
     resting = (*of_paper, "components.tips.toughness=100 MPa*m^0.5", "time.end=26 h")
     cases = {"wing_cracks": ("wing_cracks.yaml", (*of_paper, held)),
              "no growth": ("wing_cracks.yaml", (*resting, "components.tips.skip_below=0")),

@@ -30,7 +30,7 @@ SCENES = {
     "section 5.1 before injection": ("paper/onset_coarse.yaml", {**FRACTURE, "time.end": "6 h"}),
     "section 5.1": ("paper/onset_coarse.yaml", {**FRACTURE, "time.end": "21 h"}),
     "section 5.1, two levels": ("paper/onset.yaml", {**FRACTURE, "time.end": "8 h"}),
-    "growth": ("paper/wing_cracks.yaml", {**FRACTURE, "time.end": "2 h", "time.step": "1 h", "schedule.1.update": "after_step",
+    "growth": ("paper/wing_cracks.yaml", {**FRACTURE, "mesh.growth": "0.2", "time.end": "2 h", "time.step": "1 h", "schedule.1.update": "after_step",
                                           "components.tips.size": "0.5 m", "components.tips.growth": "{increment: 10 mm, front_tolerance: null}",
                                           "couplers.4.between": "[rock, conduit, tips]"}),
 }

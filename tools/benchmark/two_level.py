@@ -133,7 +133,7 @@ def finer(increment, size):
 
 
 # The scene has other values, with which it takes least time for its error.
-VALUES_OF_PAPER = {"mesh.size": "0.1 m", "time.step": "1 h", "components.tips.size": "0.5 m", "components.tips.growth": "{increment: 10 mm, front_tolerance: null}"}
+VALUES_OF_PAPER = {"mesh.size": "0.1 m", "mesh.growth": 0.2, "time.step": "1 h", "components.tips.size": "0.5 m", "components.tips.growth": "{increment: 10 mm, front_tolerance: null}"}
 PROBLEMS = {
     "k_ii": Problem(
         "K_II of section 5.1", "paper/onset.yaml",

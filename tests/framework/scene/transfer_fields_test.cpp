@@ -176,8 +176,8 @@ class Knowing : public Part {
   }
   void begin_step(const StepTime&) override {}
   void assemble(Assembly&, const StepTime&) const override {}
-  void add_known_within_cells(const Field& field, LinearPieces& pieces) const override {
-    if (field.name() == "part.value") pieces.insert(pieces_.begin(), pieces_.end());
+  void add_known_within_cells(const Field& field, KnownWithinCells& known) const override {
+    if (field.name() == "part.value") known.pieces.insert(pieces_.begin(), pieces_.end());
   }
   /// The means of the cells.
   Vector means() const {
@@ -226,15 +226,49 @@ TEST(TransferFields, WhatIsKnownWithinCellsGoesOver) {
   EXPECT_GT(off_when_linear, 5 * off);
 }
 
+/// Beside a fracture from which a value falls on both sides, no cell has as much as the walls: only with the values
+/// there are the cells at the walls inclined.
+TEST(TransferFields, ValuesAtWallsGoOver) {
+  const Case c = grown_at_first_point();
+  const Point from(0.5, 0.5), along = Point(0.2, 0.1).normalized(), normal(-along[1], along[0]);
+  const auto value = [&](const Point& x) { return 5 - std::abs(normal.dot(x - from)); };
+  FieldStore before;
+  Field& field = before.add(c.mesh, spec(Location::cell));
+  Vector values(c.mesh.cell_count());
+  for (int i = 0; i < values.size(); ++i) values[i] = value(c.mesh.cell_center[i]);
+  field.set_both(values);
+  KnownWithinCells known;
+  const Fracture& main = c.mesh.fractures[1];
+  for (int k = 0; k < main.cell_count; ++k)
+    for (const int face : c.mesh.fracture_cells[main.first_cell + k].faces) known.at_faces[face] = 5;
+  const Vector plain = transferred_cells(field, c.grown.change, c.mesh, c.grown.mesh),
+               better = transferred_cells(field, c.grown.change, c.mesh, c.grown.mesh, known);
+  double off = 0, off_without = 0, total = 0, total_before = 0;
+  for (int i = 0; i < c.grown.mesh.cell_count(); ++i) {
+    total += c.grown.mesh.cell_measure[i] * better[i];
+    EXPECT_LE(better[i], 5);
+    const Point& x = c.grown.mesh.cell_center[i];
+    const double place = along.dot(x - from);
+    // Where the value is linear in all cells around.
+    if (place < 1.5 * size || place > 0.2 || c.grown.change.cell[i] != none) continue;
+    off = std::max(off, std::abs(better[i] - value(x)));
+    off_without = std::max(off_without, std::abs(plain[i] - value(x)));
+  }
+  for (int i = 0; i < c.mesh.cell_count(); ++i) total_before += c.mesh.cell_measure[i] * values[i];
+  EXPECT_NEAR(total, total_before, 1e-13 * total_before);
+  EXPECT_GT(off_without, 0.02 * size);
+  EXPECT_LT(off, 1e-12) << off_without;
+}
+
 /// Where pieces have nothing in common with a new cell, as with a part that is a line but for rounding.
 TEST(TransferFields, PiecesThatAreElsewhereCountForNothing) {
   const Case c = grown_at_first_point();
   FieldStore before;
   Field& field = before.add(c.mesh, spec(Location::cell));
   field.set_both(varied(c.mesh.cell_count()));
-  LinearPieces known;
+  KnownWithinCells known;
   for (int i = 0; i < c.mesh.cell_count(); i += 2)
-    known[i] = {{{Point(5, 5), Point(6, 5), Point(5, 6)}, {1e9, 1e9, 1e9}, 1}};
+    known.pieces[i] = {{{Point(5, 5), Point(6, 5), Point(5, 6)}, {1e9, 1e9, 1e9}, 1}};
   const Vector plain = transferred_cells(field, c.grown.change, c.mesh, c.grown.mesh);
   EXPECT_EQ(transferred_cells(field, c.grown.change, c.mesh, c.grown.mesh, known), plain);
 }
