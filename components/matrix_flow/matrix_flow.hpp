@@ -94,9 +94,9 @@ class MatrixFlow : public Component,
   bool allows_stages() const override { return true; }
   void begin_step(const StepTime& step) override;
   /// Discretizes on the new mesh; the unchanged part of the discretization of `before` is kept.
+  void carry_over(const Part& before, const MeshChange& change) override;
   /// The pressures at the walls of fractures.
   void add_known_within_cells(const Field& field, KnownWithinCells& known) const override;
-  void carry_over(const Part& before, const MeshChange& change) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;

@@ -1,7 +1,6 @@
 #include "couplers/two_level/pressure_near_tips.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -18,13 +17,6 @@ constexpr int divisions = 4;  ///< of each edge of a cell
 /// How far pressures may be beyond all that are given, of the range of these: up to the first they count in full, from
 /// the second on not at all.
 constexpr double least_overshoot = 0.02, most_overshoot = 0.15;
-
-/// A triangle of the mesh, or a half of a quadrilateral. If it has a corner at a tip, that is the first one.
-struct Piece {
-  int cell;
-  std::array<int, 3> corners;
-  bool at_tip;
-};
 
 /// The nodes at tips.
 std::set<int> tip_nodes(const Mesh& mesh) {
@@ -60,10 +52,7 @@ struct PressureNearTips::Region {
   std::vector<bool> conducting;
   std::vector<int> unknown;  ///< of each node, or none
   Matrix by_given;  ///< what nodes with values contribute to the equations of the others, and to the means of the cells
-  Eigen::SimplicialLLT<Matrix> stiffness;  ///< of the unknown nodes
-  Matrix means;                            ///< of the cells, by the unknown nodes
-  Eigen::MatrixXd responses;               ///< of the unknown nodes to a source in each cell
-  Eigen::LLT<Eigen::MatrixXd> sources_by_means;
+  Eigen::SparseLU<Matrix> factors;
 
   std::optional<Vector> solution;
   double weight = 1;
@@ -231,9 +220,9 @@ void PressureNearTips::Region::factorize(const std::vector<std::optional<double>
   int count = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (!conducting[i]) unknown[i] = count++;
-  // The least integral of the squared gradient under the condition that each cell has its mean; the multipliers of
-  // these conditions are sources in the cells. In by_given, the means come after the unknown nodes.
-  std::vector<Triplet> entries, given, of_means;
+  // The least integral of the squared gradient under the condition that each cell has its mean: after the unknown nodes
+  // come the multipliers of these conditions.
+  std::vector<Triplet> entries, given;
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (const std::array<int, 3>& t : triangles[c]) {
       const Point ab = nodes[t[1]] - nodes[t[0]], ac = nodes[t[2]] - nodes[t[0]];
@@ -249,7 +238,8 @@ void PressureNearTips::Region::factorize(const std::vector<std::optional<double>
           given.emplace_back(mean, t[i], part);
           continue;
         }
-        of_means.emplace_back(static_cast<int>(c), row, part);
+        entries.emplace_back(mean, row, part);
+        entries.emplace_back(row, mean, part);
         for (int k = 0; k < 3; ++k) {
           const double value = opposite[i].dot(opposite[k]) / (4 * area);
           if (unknown[t[k]] == none)
@@ -259,20 +249,13 @@ void PressureNearTips::Region::factorize(const std::vector<std::optional<double>
         }
       }
     }
-  const int cell_count = static_cast<int>(cells.size());
-  Matrix equations(count, count);
+  const int size = count + static_cast<int>(cells.size());
+  Matrix equations(size, size);
   equations.setFromTriplets(entries.begin(), entries.end());
-  means.resize(cell_count, count);
-  means.setFromTriplets(of_means.begin(), of_means.end());
-  by_given.resize(count + cell_count, static_cast<Eigen::Index>(nodes.size()));
+  by_given.resize(size, static_cast<Eigen::Index>(nodes.size()));
   by_given.setFromTriplets(given.begin(), given.end());
-  stiffness.compute(equations);
-  if (stiffness.info() == Eigen::Success) {
-    responses = stiffness.solve(Eigen::MatrixXd(means.transpose()));
-    sources_by_means.compute(means * responses);
-  }
-  if (stiffness.info() != Eigen::Success || sources_by_means.info() != Eigen::Success)
-    throw std::runtime_error("the pressure around a tip is not determined");
+  factors.compute(equations);
+  if (factors.info() != Eigen::Success) throw std::runtime_error("the pressure around a tip is not determined");
 }
 
 void PressureNearTips::Region::solve(const Given& given) {
@@ -310,9 +293,9 @@ void PressureNearTips::Region::solve(const Given& given) {
   }
   Vector cell_means(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) cell_means[c] = given.cells[cells[c]];
-  const Vector right = -(by_given * fixed);
-  Vector found = stiffness.solve(right.head(means.cols()));
-  found += responses * sources_by_means.solve(right.tail(means.rows()) + cell_means - means * found);
+  Vector right = -(by_given * fixed);
+  right.tail(cell_means.size()) += cell_means;
+  const Vector found = factors.solve(right);
   solution = fixed;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (unknown[i] != none) (*solution)[i] = found[unknown[i]];
@@ -324,6 +307,8 @@ void PressureNearTips::Region::solve(const Given& given) {
 }
 
 void PressureNearTips::set(Given given) {
+  const bool is_first = given_.cells.size() == 0;
+  if (!is_first && given.cells == given_.cells && given.walls == given_.walls && given.nodes == given_.nodes) return;
   given_ = std::move(given);
   for (const auto& region : regions_) region->solution.reset();
 }

@@ -142,7 +142,7 @@ class TwoLevel : public Coupler, public TipSurroundings {
     if (options_.pore_pressure != "near_tips" || &field != pressure_by_exchange()) return;
     const LinearExpression& at_walls = fluid_->rock_walls()->wall_pressure();
     if (at_walls.constant.size() == 0) return;  // no step has begun
-    // Trials of a step ask for the same accepted state on the same mesh.
+    // Trials of a step ask for the same accepted state on the same mesh, which is solved once.
     if (!accepted_fit_) accepted_fit_.emplace(mesh_, NodalValues::From::cells);
     if (!accepted_near_tips_) accepted_near_tips_.emplace(mesh_);
     accepted_fit_->set(1, field.accepted(), {});

@@ -25,19 +25,18 @@ std::vector<Point> line_from(const Mesh& mesh, int cell, bool at_end) {
 
 }  // namespace
 
-EndFrame::EndFrame(const Mesh& mesh, int end) : origin_(mesh.nodes[end]) {
+EndFrame::EndFrame(const Mesh& mesh, int end) : end_(end), origin_(mesh.nodes[end]) {
   SPREKK_EXPECT(is_index(end, mesh.node_count()), end, mesh.node_count());
-  for (const int face : mesh.node_faces[end]) {
-    if (mesh.face_fracture_cell[face] == none) continue;
-    const Point ahead = (origin_ - mesh.face_center[face]).normalized();
-    axes_ << ahead.x(), -ahead.y(), ahead.y(), ahead.x();
-    size_ = mesh.face_measure[face];
-    SPREKK_ASSERT(size_ > 0, end, face, size_);
-    const int cell = mesh.face_fracture_cell[face];
-    fracture_ = mesh.fracture_cells[cell].fracture;
-    line_ = line_from(mesh, cell, ahead.dot(mesh.fracture_cells[cell].tangents) > 0);
-  }
-  if (line_.size() < 2) line_ = {origin_, origin_ - axes_.col(0)};
+  const auto& faces = mesh.node_faces[end];
+  const auto wall = std::ranges::find_if(faces, [&](int face) { return mesh.face_fracture_cell[face] != none; });
+  SPREKK_EXPECT(wall != std::end(faces), end);
+  const Point ahead = (origin_ - mesh.face_center[*wall]).normalized();
+  axes_ << ahead.x(), -ahead.y(), ahead.y(), ahead.x();
+  size_ = mesh.face_measure[*wall];
+  SPREKK_ASSERT(size_ > 0, end, *wall, size_);
+  const FractureCell& cell = mesh.fracture_cells[mesh.face_fracture_cell[*wall]];
+  fracture_ = cell.fracture;
+  line_ = line_from(mesh, mesh.face_fracture_cell[*wall], ahead.dot(cell.tangents) > 0);
 }
 
 int EndFrame::side_of(const Point& x) const {
@@ -72,7 +71,7 @@ int EndFrame::side_of_cell(const Mesh& mesh, int cell) const {
   for (const int face : mesh.cell_faces[cell])
     if (const int wall = mesh.face_fracture_cell[face]; wall != none && mesh.fracture_cells[wall].fracture == fracture_)
       return side_of_wall(mesh, face);
-  return side_of(mesh.cell_center[cell]);
+  return std::ranges::count(mesh.cell_nodes[cell], end_) > 0 ? 0 : side_of(mesh.cell_center[cell]);
 }
 
 EndFrame::Polar EndFrame::polar(const Point& x, int side) const {

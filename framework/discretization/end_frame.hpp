@@ -20,7 +20,9 @@ class EndFrame {
   /// +1 or -1: the side of the fracture, which may bend, and ahead of the end that of the line through the last wall.
   int side_of(const Point& x) const;
   int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1
-  int side_of_cell(const Mesh& mesh, int cell) const;  ///< of its wall, and for a cell without a wall of its centre
+  int side_of_cell(const Mesh& mesh, int cell) const;
+  /// That of its wall, and for a cell without a wall that of its centre; 0 for one that has the end as a corner: it
+  /// lies between walls, and positions decide.
 
   /// Polar coordinates around the end.
   struct Polar {
@@ -35,11 +37,12 @@ class EndFrame {
   const Eigen::Matrix2d& axes() const { return axes_; }
 
  private:
+  int end_;
   Point origin_;
   double size_ = 1;
   Eigen::Matrix2d axes_;
   int fracture_ = none;
-  std::vector<Point> line_;  ///< m, of the fracture, from the end on: as many cells as fields of the end may reach
+  std::vector<Point> line_;  ///< m, of the fracture, from the end backwards; it goes straight on behind its last point
 };
 
 }  // namespace sprekk

@@ -134,8 +134,6 @@ double common_area(const Corners& a, const Corners& b) {
   return part.count < 3 ? 0 : part.area();
 }
 
-Point common_centre(const Corners& a, const Corners& b) { return common_part(a, b).centre; }
-
 CommonPart common_part(const Corners& a, const Corners& b) {
   CommonPart common;
   Polygon part;

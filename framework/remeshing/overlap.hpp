@@ -39,9 +39,6 @@ inline Corners corners_of(const std::vector<Point>& nodes, const Ring& cell) {
 /// they lie.
 double common_area(const Corners& a, const Corners& b);
 
-/// The centre of area of the intersection of two cells, m; the centre of a where they have no area in common.
-Point common_centre(const Corners& a, const Corners& b);
-
 /// The area of the intersection of two cells, m^2, and its centre, m; the centre of a where they have no area in
 /// common.
 struct CommonPart {

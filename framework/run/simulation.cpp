@@ -111,9 +111,6 @@ Simulation::Simulation(const Scene& scene, const RunOptions& options)
   recorder_.set_up_ends();
   if (!restart_) return;
   restart_->restore(state_);
-  // As behind the last step of a run that goes on: parts have the operators and data of its end.
-  const double time = state_.controller.time(), standard = scene.time.step;
-  if (time > scene.time.start) begin_step(state_.model->parts(), {time - standard, standard, time});
   continued_ = restart_->continued(state_);
   restart_.reset();
   std::vector<Quantity> columns = state_.model->quantities();

@@ -100,8 +100,11 @@ MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMe
   Model& model = *result.model;
   SPREKK_ASSERT(model.parts().size() == before.parts().size(), model.parts().size(), before.parts().size());
   grown.change.is_at_start = data.end <= before.scene().time.start;
-  if (!grown.change.is_at_start)
+  if (!grown.change.is_at_start) {
+    // Parts tell what they know of the accepted state: not with the data of a step that was tried since.
+    begin_step(before.parts(), data);
     transfer_fields(before.fields(), grown.change, before.mesh(), model.mesh(), model.fields(), before.parts());
+  }
   for (Part* part : model.parts()) part->evaluate_data(data);
   for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);
   begin_step(model.parts(), data);

@@ -136,8 +136,7 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
         value[0] += entry.value() / area * mean_of_pieces(pieces->second, corners, from, old_corners, linear);
         continue;
       }
-      const Point centre = common_centre(corners, old_corners);
-      value += entry.value() / area * linear.at(from, centre);
+      value += entry.value() / area * linear.at(from, common_part(corners, old_corners).centre);
     }
   }
   return values;

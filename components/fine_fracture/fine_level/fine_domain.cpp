@@ -1,5 +1,7 @@
 #include "components/fine_fracture/fine_level/fine_domain.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -116,7 +118,7 @@ std::pair<double, double> clipped(const Rectangle& box, const Point& from, const
 }
 
 /// The sides of the rock that are not on those of its bounding box.
-std::vector<Segment> slanted_sides(const Mesh& mesh, const Rectangle& bounds) {
+std::vector<Segment> sides_within(const Mesh& mesh, const Rectangle& bounds) {
   const double near = rounding * (bounds.high - bounds.low).maxCoeff();
   std::vector<Segment> sides;
   for (int face = 0; face < mesh.face_count(); ++face) {
@@ -236,19 +238,15 @@ std::vector<FracturePath> joined(std::vector<FracturePath> paths, double toleran
   return paths;
 }
 
-}  // namespace
-
-FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separate_paths, const TipEnd& tip,
-                       const Point& center, double size, double gap, CrackPath::Walls coarse_walls,
-                       const std::vector<Point>* outline) {
-  const Rectangle rock = bounds(mesh);
-  const std::vector<FracturePath> paths = joined(separate_paths, same_place * (rock.high - rock.low).maxCoeff());
-  const std::vector<Avoided> places = outline ? std::vector<Avoided>() : avoided_places(paths);
+/// The square around the center, larger by small steps until no side is near to a fracture, and smaller where it would
+/// leave the rock, of which these sides are not on its bounding box.
+Rectangle square_in_rock(const Rectangle& rock, const std::vector<Segment>& sides, const Point& center, double size,
+                         double gap, const std::vector<FracturePath>& paths) {
+  constexpr double step = 0.02;
+  constexpr double more = 1 + 1e-9;  // exceeds rounding, so that domains of mirrored scenes are mirrored
+  const std::vector<Avoided> places = avoided_places(paths);
   Rectangle box;
   double widest = -1;
-  constexpr double more = 1 + 1e-9;  // exceeds rounding, so that domains of mirrored scenes are mirrored
-  if (outline) box = {(*outline)[0], (*outline)[2]};
-  const std::vector<Segment> sides = outline ? std::vector<Segment>() : slanted_sides(mesh, rock);
   const auto try_factor = [&](double factor) {
     const Point half = Point::Constant(0.5 * factor * size);
     const Rectangle other{(center - half).cwiseMax(rock.low), (center + half).cwiseMin(rock.high)};
@@ -259,16 +257,26 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
     box = other;
     return true;
   };
-  // A domain is made larger by small steps until no side is near to a fracture, and smaller where it would leave the
-  // rock.
-  constexpr double step = 0.02;
-  for (double factor = 1; !outline && factor < largest_enlargement && widest * more < gap; factor += step)
+  for (double factor = 1; factor < largest_enlargement && widest * more < gap; factor += step)
     if (!try_factor(factor)) break;
+  if (widest >= 0) return box;
+  for (double factor = 1 - step; factor > 0.5 * step && widest * more < gap; factor -= step) try_factor(factor);
   if (widest < 0)
-    for (double factor = 1 - step; !outline && factor > 0.5 * step && widest * more < gap; factor -= step)
-      try_factor(factor);
-  if (!outline && widest < 0)
-    throw std::runtime_error("the square of a tip does not fit into the rock; make 'size' of the tips smaller");
+    throw std::invalid_argument(fmt::format(
+        "the square of a tip at ({:.4g} m, {:.4g} m) does not fit into the rock; the tip is too near to a side",
+        center[0], center[1]));
+  return box;
+}
+
+}  // namespace
+
+FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separate_paths, const TipEnd& tip,
+                       const Point& center, double size, double gap, CrackPath::Walls coarse_walls,
+                       const std::vector<Point>* outline) {
+  const Rectangle rock = bounds(mesh);
+  const std::vector<FracturePath> paths = joined(separate_paths, same_place * (rock.high - rock.low).maxCoeff());
+  const Rectangle box = outline ? Rectangle{(*outline)[0], (*outline)[2]}
+                                : square_in_rock(rock, sides_within(mesh, rock), center, size, gap, paths);
   FineDomain domain;
   domain.geometry.outline = {box.low, {box.high[0], box.low[1]}, box.high, {box.low[0], box.high[1]}};
   for (int f = 0; f < static_cast<int>(paths.size()); ++f) {
@@ -305,6 +313,17 @@ FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& separa
   }
   if (domain.crack == none) throw std::runtime_error("the domain of a tip does not contain the tip");
   return domain;
+}
+
+double reach_in_rock(const Mesh& mesh, const std::vector<Point>& outline, const Point& center) {
+  const Rectangle rock = bounds(mesh);
+  const Point near = rounding * (rock.high - rock.low);
+  double reach = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < dimension; ++k) {
+    if (outline[0][k] > rock.low[k] + near[k]) reach = std::min(reach, center[k] - outline[0][k]);
+    if (outline[2][k] < rock.high[k] - near[k]) reach = std::min(reach, outline[2][k] - center[k]);
+  }
+  return reach;
 }
 
 void add_beyond(FineDomain& domain, const std::vector<FracturePath>& paths) {

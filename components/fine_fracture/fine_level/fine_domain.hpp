@@ -1,7 +1,6 @@
 // The part of the coarse level around a tip, as the fine level needs it (sec. 3.1 and Fig. 2 of the paper).
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "components/fine_fracture/fine_level/geometry.hpp"
@@ -51,7 +50,7 @@ constexpr double largest_enlargement = 2;  ///< of the side of a fine level's sq
 
 /// The domain of a fine level: a square of side `size` (m) around `center`, clipped by the bounding box of the rock,
 /// with all paths in it. Where the rock is no such box, and has slanted sides or a hole in the square, the square is as
-/// much smaller as it has to be; throws std::runtime_error where none fits. The outline keeps the distance `gap` (m)
+/// much smaller as it has to be; throws std::invalid_argument where none fits. The outline keeps the distance `gap` (m)
 /// from tips, junctions and segments along a side, and 8 |sin| times that, but 0.25 times at least and 4 times at most,
 /// from a bend of the coarse level's paths. If necessary the square is larger, by less than `largest_enlargement`
 /// times; where no such square keeps the distances, the one that comes nearest to it is taken. `outline`: if given, the
@@ -60,6 +59,10 @@ constexpr double largest_enlargement = 2;  ///< of the side of a fine level's sq
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
                        double size, double gap, CrackPath::Walls coarse_walls,
                        const std::vector<Point>* outline = nullptr);
+
+/// How far an outline that fine_domain has made reaches beyond its center, m: to those of its sides that are not on the
+/// bounding box of the rock.
+double reach_in_rock(const Mesh& mesh, const std::vector<Point>& outline, const Point& center);
 
 /// Adds the parts of paths outside of the outline, as far away from it as it is wide, to `beyond`. A path that ends on
 /// the outline, where the rock ends, goes straight on with the jump of its end.

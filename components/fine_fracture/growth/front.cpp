@@ -23,7 +23,7 @@ constexpr double shorter = 0.5;                ///< steps after a trial that was
 constexpr double of_direction = 0.1;           ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
 constexpr double slope_of_differences = 0.01;  ///< of H by an advance, see most_equal_front.hpp
 constexpr double least_of_difference = 1;      ///< the least weight of differences of advances in that norm
-constexpr double of_differences = 0.1;         ///< the tolerance of differences of advances over that of loads
+constexpr double of_differences = 0.03;        ///< the tolerance of differences of advances over that of loads
 
 }  // namespace
 

@@ -92,18 +92,17 @@ void TipsFront::add(Tips::Tip& tip) {
     start.anchor = end - start.covered * ahead;
     tip.next_start = tip.now.segment_start;
     if (const double stays = what_stays(tip, start); stays > 0) {
-      // Both parts of an arc are arcs of the same curvature, and the path does not change. A straight segment, the
-      // first one behind a kink, has turned since it was so long; what stays of it ends where the tip has been.
-      const PlaceOnWay place = tip.now.segment_start ? place_on_arc(start.anchor, *tip.now.segment_start, end, stays)
-                                                     : place_on_way(start.anchor, tip.now.way, stays);
+      // What goes on is an arc of the same curvature; what stays becomes straight.
+      const PlaceOnPath place = tip.now.segment_start ? place_on_arc(start.anchor, *tip.now.segment_start, end, stays)
+                                                      : PlaceOnPath{start.anchor + stays * ahead, ahead};
       start.anchor = place.position;
       start.covered = (end - start.anchor).norm();
       start.angle = angle_of(end - start.anchor);
       segment.before.push_back(start.anchor);
       tip.next_start = place.direction;
-    } else if (!tip.next_start && !tip.now.way.empty()) {
+    } else if (!tip.next_start && tip.now.was_laid) {
       // The first segment behind a kink was straight when the mesh began to follow it; from then on it is an arc.
-      tip.next_start = tip.now.way.front().direction;
+      tip.next_start = ahead;
     }
     start.is_bent = tip.next_start.has_value();
     if (start.is_bent)

@@ -59,7 +59,7 @@ void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
   tip.now.speed = (length_of(position(tip, {}), path) - length_of(position(tip, {}), tip.now.path)) / step_.dt;
   tip.now.lasted = tip.now.lasted_before = 0;
   tip.now.is_extendable = false;
-  tip.now.way.clear();
+  tip.now.was_laid = false;
   tip.next_start.reset();
   const std::string topic = name() + " grows with the state held";
   const auto is_told = [&](const EndNote& note) { return note.topic == topic; };

@@ -62,6 +62,7 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
 
 void Tips::note_step(Notes& notes, const StepTime&) const {
   for (const EndNote& note : notes_) notes.add(note.topic, note.text, note.measure);
+  for (const Tip& tip : tips_) note_narrow_square(tip, notes);
   for (const Tip& tip : tips_)
     if (tip.lacks_contact)
       notes.add("no state of contact around " + name() + "." + tip.name,
@@ -70,6 +71,23 @@ void Tips::note_step(Notes& notes, const StepTime&) const {
                             name(), tip.name));
   if (!options_.toughness) return;
   for (const Tip& tip : tips_) note_shear(tip, notes);
+}
+
+/// A square that lies in rock with slanted sides may be too small for its coarse mesh (check_size).
+void Tips::note_narrow_square(const Tip& tip, Notes& notes) const {
+  constexpr double rounding = 1e-9;
+  const std::vector<Point>& outline = tip.domain.geometry.outline;
+  if (outline.empty()) return;
+  const double reach = reach_in_rock(mesh_, outline, position(tip, {})),
+               least = std::min(tip.coarse_size, 0.5 * options_.size);
+  if (reach >= (1 - rounding) * least) return;
+  const std::string name = this->name() + "." + tip.name;
+  notes.add("small square around " + name,
+            fmt::format("the square around {} reaches {:.3g} m, less than an edge of the coarse level ({:.3g} m): a "
+                        "slanted side of the rock is near, and K is less accurate (with a quarter of an edge half of "
+                        "K_II is missing)",
+                        name, reach, tip.coarse_size),
+            tip.coarse_size / reach);
 }
 
 /// Where walls touch at the tip of a wing they carry the load, and K_I = 0; those of the fine level are open there.

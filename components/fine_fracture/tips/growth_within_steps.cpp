@@ -16,7 +16,8 @@ namespace {
 
 constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
 constexpr double wanted_turn = 0.08;     ///< rad, of the path at a tip in one step
-constexpr double least_turn = 0.02;      ///< rad in the last step, below which the next one is not expected to turn far
+constexpr double least_turn =
+    0.02;  ///< rad in the last two steps, below which the next one is not expected to turn far
 
 }  // namespace
 
@@ -63,8 +64,10 @@ double Tips::longest_step() const {
     if (!grows_within_steps_ || tip.now.is_stopped || tip.now.speed == 0) continue;
     longest = std::min(longest, wanted_advance * options_.growth.increment / tip.now.speed);
     // The end of an arc whose start is fixed turns twice as far as its chord.
-    const double turning = (tip.now.segment_start ? 2 : 1) * std::abs(tip.now.turning) * tip.now.speed;  // rad/s
-    if (tip.now.is_extendable && turning * tip.now.lasted > least_turn)
+    const double of_chord = tip.now.segment_start ? 2 : 1;
+    const double turning = of_chord * std::abs(tip.now.turning) * tip.now.speed,  // rad/s
+        before = of_chord * std::abs(tip.now.turning_before) * tip.now.speed_before;
+    if (tip.now.is_extendable && turning * tip.now.lasted + before * tip.now.lasted_before > least_turn)
       longest = std::min(longest, wanted_turn / turning);
   }
   return longest;

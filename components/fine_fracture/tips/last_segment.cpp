@@ -1,4 +1,4 @@
-// The last segment of a path, while the mesh follows its tip: where it is divided, and where on it the tip has been.
+// The last segment of a path, while the mesh follows its tip: where it is divided.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,6 @@ constexpr double longest_segment = 1.5;   ///< of an increment: a longer one is 
 constexpr double turn_of_segment = 0.06;  ///< rad: one that turns further is divided when it is shorter
 constexpr double least_full = 0.4;        ///< of the length of a straight segment that is divided
 constexpr double least_advance = 0.05;    ///< of an increment: a step in which a tip advances by less divides nothing
-constexpr double on_the_way = 0.2;        ///< of an increment: of nearer places only one gives a direction
 
 }  // namespace
 
@@ -32,27 +31,12 @@ double TipsFront::part_by_turn(const Tips::Tip& tip) const {
 /// The length of the last segment that is fixed from now on, m.
 double TipsFront::what_stays(const Tips::Tip& tip, const FrontTip& start) const {
   const double increment = tips_.options_.growth.increment;
-  if (tip.now.way.empty()) return 0;
+  if (!tip.now.was_laid) return 0;
   // A step in which the tip hardly advances keeps its cells: dividing one would change K by more than the advance does.
   const bool is_short = start.speed > 0 && start.speed * dt_ < least_advance * increment;
   if (is_short && start.covered < longest_segment * increment) return 0;
   const double full = full_segment * increment * part_by_turn(tip);
   return start.covered > full ? start.covered - rest_of_segment * std::min(start.covered, increment) : 0;
-}
-
-/// The places of the tip in the last segment of the new mesh. `before`: the places in the last segment of the mesh
-/// before the step.
-std::vector<PlaceOnWay> TipsFront::way_to(const Tips& there, const Tips::Tip& tip,
-                                          const std::vector<PlaceOnWay>& before) const {
-  if (!tip.now.is_extendable) return {};
-  const double least = on_the_way * tips_.options_.growth.increment;
-  const Point end = there.position(tip, {}), ahead = there.direction(tip);
-  const Point anchor = end - there.last_cell(tip.end).measure * ahead;
-  std::vector<PlaceOnWay> way;
-  for (const PlaceOnWay& place : before)
-    if ((place.position - anchor).dot(ahead) > least && (place.position - end).norm() > least) way.push_back(place);
-  way.push_back({end, there.end_direction(tip)});
-  return way;
 }
 
 }  // namespace sprekk::fine_fracture

@@ -6,7 +6,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int state_size = 22;  ///< numbers of a state, without its way and its path
+constexpr int state_size = 22;  ///< numbers of a state, without its path
 
 void append(Vector& values, const Point& point) {
   values.conservativeResize(values.size() + 2);
@@ -22,9 +22,8 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     Vector values(state_size);
     values << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started,
         kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated, kept.load,
-        kept.is_extendable, kept.speed, kept.turning, static_cast<double>(kept.way.size()), start, kept.speed_before,
-        kept.turning_before, kept.lasted, kept.lasted_before, kept.pressure_rate;
-    for (const PlaceOnWay& place : kept.way) append(values, place.position), append(values, place.direction);
+        kept.is_extendable, kept.speed, kept.turning, kept.was_laid, start, kept.speed_before, kept.turning_before,
+        kept.lasted, kept.lasted_before, kept.pressure_rate;
     for (const Point& place : kept.path.added) append(values, place);
     state[name() + "." + tip.name] = std::move(values);
   }
@@ -55,15 +54,12 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.lasted_before = values[20];
     kept.pressure_rate = values[21];
     if (const Point start(values[15], values[16]); start != Point::Zero()) kept.segment_start = start;
+    kept.was_laid = values[14] != 0;
     int at = state_size;
     const auto next = [&] {
       at += 2;
       return Point(values[at - 2], values[at - 1]);
     };
-    for (int i = 0; i < values[14] && at + 3 < values.size(); ++i) {
-      const Point position = next();
-      kept.way.push_back({position, next()});
-    }
     while (at + 1 < values.size()) kept.path.added.push_back(next());
     tip.now = tip.accepted = kept;
   }

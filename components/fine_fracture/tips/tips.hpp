@@ -9,7 +9,7 @@
 #include "components/fine_fracture/fine_level/fine_domain.hpp"
 #include "components/fine_fracture/fine_level/fine_level.hpp"
 #include "components/fine_fracture/growth/grow_tips.hpp"
-#include "components/fine_fracture/growth/way_of_tip.hpp"
+#include "components/fine_fracture/growth/arc.hpp"
 #include "components/fine_fracture/tips/beside_arcs.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
@@ -91,8 +91,8 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
     double turning = 0;                           ///< rad/m, of the last segment by growth in the last step
     double speed_before = 0, turning_before = 0;  ///< the same, of the step before that
     double lasted = 0, lasted_before = 0;         ///< s, these two steps; 0: not known
-    /// Where the tip was at ends of steps while its last segment grew; the last one is here.
-    std::vector<PlaceOnWay> way;
+    /// Whether growth within a step has laid the last segment: it has K_II = 0 at its end.
+    bool was_laid = false;
     /// The direction of the path at the beginning of the last segment. With one the fine level has an arc in place of
     /// the segment.
     std::optional<Point> segment_start;
@@ -183,6 +183,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   void set_factors(Tip& tip, const Sifs& sifs) const;
   void leave_last_segment(Tip& tip, const TipPath& path);
   void note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined);
+  void note_narrow_square(const Tip& tip, Notes& notes) const;
   void note_shear(const Tip& tip, Notes& notes) const;
   /// Stops tips whose path the mesh cannot take: they stay for good where they were at the start of the step.
   void stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes);

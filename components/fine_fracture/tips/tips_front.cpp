@@ -185,7 +185,7 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     same->now.turning = !jump_ && at_start_[i].covered > 0 && advance > 0
                             ? (front_->angle(static_cast<int>(i)) - at_start_[i].ahead) / advance
                             : 0;
-    same->now.way = way_to(there, *same, tips_.tips_[i].now.way);
+    same->now.was_laid = same->now.is_extendable;
     same->now.has_started = same->now.has_started || (jump_ ? jump_->is_laid(i) : front_->grows(i));
     same->now.is_stopped = same->now.is_stopped || is_blocked_[i];
   }

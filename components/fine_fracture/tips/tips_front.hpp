@@ -10,7 +10,7 @@
 
 #include "components/fine_fracture/growth/front.hpp"
 #include "components/fine_fracture/growth/jump.hpp"
-#include "components/fine_fracture/growth/way_of_tip.hpp"
+#include "components/fine_fracture/growth/arc.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
 
 namespace sprekk::fine_fracture {
@@ -49,7 +49,6 @@ class TipsFront : public FrontSearch {
   void end_blocked();
   void propose();
   Tips::Tip* same_tip(Tips& there, int tip) const;
-  std::vector<PlaceOnWay> way_to(const Tips& there, const Tips::Tip& tip, const std::vector<PlaceOnWay>& before) const;
   FrontState state_in_trial(const Tips& there, const Tips::Tip& same, std::size_t tip) const;
   Verdict decide();
   Verdict finish(Tips& there);

@@ -1,4 +1,4 @@
-#include "components/fine_fracture/growth/way_of_tip.hpp"
+#include "components/fine_fracture/growth/arc.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double half_of_largest_turn = 0.4;  ///< rad, between an arc and its chord
-constexpr int pieces_of_arc = 4;
+constexpr int pieces_of_arc = 3;
 
 /// From one direction to the other: nothing depends on where angles begin.
 double turn_between(const Point& from, const Point& to) { return std::atan2(cross(from, to), from.dot(to)); }
@@ -27,28 +27,7 @@ double turn_at_start(const Point& chord, const Point& start) {
 
 }  // namespace
 
-PlaceOnWay place_on_way(const Point& anchor, const std::vector<PlaceOnWay>& way, double length) {
-  SPREKK_EXPECT(!way.empty() && length > 0, way.size(), length);
-  const auto next = std::find_if(way.begin(), way.end() - 1,
-                                 [&](const PlaceOnWay& place) { return (place.position - anchor).norm() >= length; });
-  const Point to = next->position - anchor;
-  const double far = to.norm();
-  SPREKK_EXPECT(far > 0, far);
-  const Point chord = to / far;
-  double near = 0;
-  Point near_chord = chord, near_direction = next->direction;
-  if (next != way.begin()) {
-    const Point from = (next - 1)->position - anchor;
-    near = from.norm();
-    near_chord = from / near;
-    near_direction = (next - 1)->direction;
-  }
-  const double back = near < far ? std::max(0.0, far - length) / (far - near) : 0;
-  return {anchor + length * turned(chord, back * turn_between(chord, near_chord)),
-          turned(next->direction, back * turn_between(next->direction, near_direction))};
-}
-
-PlaceOnWay place_on_arc(const Point& anchor, const Point& start, const Point& end, double length) {
+PlaceOnPath place_on_arc(const Point& anchor, const Point& start, const Point& end, double length) {
   const Point chord = end - anchor;
   const double whole = chord.norm();
   SPREKK_EXPECT(length >= 0 && length <= whole, length, whole);
