@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "components/fine_fracture/growth/arc.hpp"
 #include "components/fine_fracture/growth/front.hpp"
 #include "components/fine_fracture/growth/jump.hpp"
-#include "components/fine_fracture/growth/arc.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
 
 namespace sprekk::fine_fracture {

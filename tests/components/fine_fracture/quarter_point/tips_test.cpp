@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -19,7 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int state_size = 22;  // numbers that a checkpoint has of a tip without a way and a path
+constexpr int state_size = 22;  // numbers that a checkpoint has of a tip without a path
 constexpr double toughness = 1e6, half_box = 20, crack_half_length = 1, young = 40e9, poisson = 0.2;
 constexpr double shear = young / (2 * (1 + poisson)), plane_modulus = young / (1 - poisson * poisson);
 
@@ -310,19 +311,16 @@ TEST(Tips, AreUnevenWherePressuresDoNotGoOn) {
 }
 
 TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
-  // Factors, growth, flags (stopped, started, evaluated, extendable), an error, a warm start, a load, a speed, a
-  // turning, the start of a segment, both of the step before, the lengths of these two steps, a rate of the pressure, a
-  // way of one point with its direction and a path of one.
-  constexpr int flags[] = {4, 5, 9, 11};
-  for (int set = 0; set < 16; ++set) {
-    constexpr int count = 14;  // of points on the way
-    Vector first(state_size + 6), last(state_size);
+  // Factors, growth, flags (stopped, started, evaluated, extendable, laid), an error, a warm start, a load, a speed, a
+  // turning, the start of a segment, both of the step before, the lengths of these two steps, a rate of the pressure
+  // and a path of one point.
+  constexpr std::array flags = {4, 5, 9, 11, 14};
+  for (int set = 0; set < 32; ++set) {
+    Vector first(state_size + 2), last(state_size);
     for (int i = 0; i < first.size(); ++i) first[i] = 1.1 + 0.1 * i;
-    for (int k = 0; k < 4; ++k) first[flags[k]] = (set >> k) & 1;
-    first[count] = 1;
+    for (std::size_t k = 0; k < flags.size(); ++k) first[flags[k]] = (set >> k) & 1;
     last = -first.head(state_size);
-    last[count] = 0;
-    for (int k = 0; k < 4; ++k) last[flags[k]] = 1 - first[flags[k]];
+    for (std::size_t k = 0; k < flags.size(); ++k) last[flags[k]] = 1 - first[flags[k]];
     Setting setting(0.3);
     setting.tips.restore({{"tips.main_first", first}, {"tips.main_last", last}});
     std::map<std::string, Vector> saved;
