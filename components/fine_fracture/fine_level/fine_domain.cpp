@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <stdexcept>
 
+#include "components/fine_fracture/growth/arc.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk::fine_fracture {
@@ -61,12 +61,8 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
     const bool is_first = i == 0, is_last = i + 1 == cells.cell_count;
     if (is_last && at_last.turns) is_kept.back() = true;
-    const auto append_corners = [&](const auto& corners) {
-      double pieces = 0.5;
-      for (const Point& x : corners) append(x, arc + pieces++ / std::ssize(corners) * cell.measure, true);
-    };
-    if (is_first) append_corners(std::views::reverse(at_first.corners));
-    if (is_last) append_corners(at_last.corners);
+    if (is_first && at_first.corner) append(*at_first.corner, arc + (1 - place_of_corner) * cell.measure, true);
+    if (is_last && at_last.corner) append(*at_last.corner, arc + place_of_corner * cell.measure, true);
     arc += cell.measure;
     const FracturePoint& point = mesh.fracture_points[cell.points[1]];
     append(point.position, is_last ? path.length : arc,

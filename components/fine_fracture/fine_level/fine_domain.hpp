@@ -1,6 +1,7 @@
 // The part of the coarse level around a tip, as the fine level needs it (sec. 3.1 and Fig. 2 of the paper).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "components/fine_fracture/fine_level/geometry.hpp"
@@ -27,7 +28,7 @@ struct FracturePath {
 struct LastSegment {
   /// Whether it turns from trial to trial. Then its ends are points of the path, however small the bend there is.
   bool turns = false;
-  std::vector<Point> corners = {};  ///< m, of pieces in its place, towards the tip; end pieces have half the length
+  std::optional<Point> corner = {};  ///< m, of two pieces in its place; along it at place_of_corner from its anchor
 };
 FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_first, const TipPath& added_last,
                            const LastSegment& at_first = {}, const LastSegment& at_last = {});

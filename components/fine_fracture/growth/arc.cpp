@@ -10,7 +10,6 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double half_of_largest_turn = 0.4;  ///< rad, between an arc and its chord
-constexpr int pieces_of_arc = 3;
 
 /// From one direction to the other: nothing depends on where angles begin.
 double turn_between(const Point& from, const Point& to) { return std::atan2(cross(from, to), from.dot(to)); }
@@ -36,20 +35,10 @@ PlaceOnPath place_on_arc(const Point& anchor, const Point& start, const Point& e
   return {anchor + length * turned(direction, turn - half), turned(direction, turn - 2 * half)};
 }
 
-std::vector<Point> corners_of_arc(const Point& anchor, const Point& start, const Point& end) {
+Point corner_of_arc(const Point& anchor, const Point& start, const Point& end) {
   const Point chord = end - anchor;
-  const double whole = chord.norm();
-  SPREKK_EXPECT(whole > 0, whole);
-  const double turn = turn_at_start(chord, start), bend = 2 * turn / (pieces_of_arc - 1);
-  const double half_of_piece =
-      turn == 0 ? 0.5 * whole / (pieces_of_arc - 1) : 0.5 * whole * std::tan(0.5 * bend) / std::sin(turn);
-  std::vector<Point> corners;
-  Point corner = anchor;
-  for (int i = 0; i + 1 < pieces_of_arc; ++i) {
-    corner += (i == 0 ? 1 : 2) * half_of_piece * turned(chord / whole, turn - i * bend);
-    corners.push_back(corner);
-  }
-  return corners;
+  SPREKK_EXPECT(chord.norm() > 0, chord.norm());
+  return end - (1 - place_of_corner) * turned(chord, -turn_at_start(chord, start));
 }
 
 }  // namespace sprekk::fine_fracture

@@ -1,8 +1,6 @@
 // Arcs: the form of the last segment of a path.
 #pragma once
 
-#include <vector>
-
 #include "framework/types.hpp"
 
 namespace sprekk::fine_fracture {
@@ -18,10 +16,13 @@ struct PlaceOnPath {
 /// than 0.8 rad is not followed.
 PlaceOnPath place_on_arc(const Point& anchor, const Point& start, const Point& end, double length);
 
-/// The corners, from the anchor on, of straight pieces that stand for an arc from the anchor to `end` which begins in
-/// the direction `start`. The pieces are tangents of the arc at equal distances, with those at both ends among them:
-/// the last piece has the direction of the arc at its end. First and last one are half as long as the others. An arc
-/// that turns by more than 0.8 rad is not followed.
-std::vector<Point> corners_of_arc(const Point& anchor, const Point& start, const Point& end);
+constexpr double place_of_corner = 0.75;  ///< along the arc from its anchor, over its length
+
+/// The corner of two straight pieces that stand for an arc from the anchor to `end` which begins in the direction
+/// `start`. It lies on the tangent at the end, so that the last piece has the direction of the arc there, and at such a
+/// place that T acts on K_II as it does along the arc: the integral of the direction over the square root of the
+/// distance from the tip is the same (to first order in the turn; Cotterell and Rice, Int. J. Fract. 16 (1980) 155). An
+/// arc that turns by more than 0.8 rad is not followed.
+Point corner_of_arc(const Point& anchor, const Point& start, const Point& end);
 
 }  // namespace sprekk::fine_fracture

@@ -1,8 +1,6 @@
 #include "components/fine_fracture/tips/beside_arcs.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "components/fine_fracture/fine_level/outline.hpp"
 #include "framework/invariants.hpp"
@@ -16,30 +14,21 @@ constexpr double on_the_arc = 1e-9;      ///< of the chord
 
 }  // namespace
 
-void BesideArcs::add(const std::vector<Point>& points) {
-  const Point from = points.front(), chord = points.back() - from;
-  const double length = chord.norm();
+void BesideArcs::add(const Point& from, const Point& middle, const Point& to) {
+  const double length = (to - from).norm();
   SPREKK_EXPECT(length > 0, length);
-  const Point along = chord / length, normal(-along.y(), along.x());
-  Arc arc{from, along, normal, {0}, {0}, 0};
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    arc.places.push_back(along.dot(points[i] - from));
-    arc.heights.push_back(normal.dot(points[i] - from));
-    arc.reach = std::max(arc.reach, reach_over_height * std::abs(arc.heights.back()));
-  }
-  arc.places.push_back(length);
-  arc.heights.push_back(0);
-  if (arc.reach > 0 && std::ranges::adjacent_find(arc.places, std::greater_equal()) == arc.places.end())
-    arcs_.push_back(arc);
+  const Point along = (to - from) / length, normal(-along.y(), along.x());
+  const double place = along.dot(middle - from), height = normal.dot(middle - from);
+  if (height == 0 || place <= 0 || place >= length) return;
+  arcs_.push_back({from, along, normal, length, place, height, reach_over_height * std::abs(height)});
 }
 
 Point BesideArcs::moved(const Arc& arc, const Point& x) {
-  const double place = arc.along.dot(x - arc.from), across = arc.normal.dot(x - arc.from), length = arc.places.back();
-  if (place <= 0 || place >= length || std::abs(across) >= arc.reach) return x;
-  const std::size_t next = std::ranges::upper_bound(arc.places, place) - arc.places.begin();
-  const double part = (place - arc.places[next - 1]) / (arc.places[next] - arc.places[next - 1]);
-  const double height = std::lerp(arc.heights[next - 1], arc.heights[next], part);
-  if (std::abs(across - height) <= on_the_arc * length) return x;
+  const double place = arc.along.dot(x - arc.from), across = arc.normal.dot(x - arc.from);
+  if (place <= 0 || place >= arc.length || std::abs(across) >= arc.reach) return x;
+  const double part = place < arc.middle ? place / arc.middle : (arc.length - place) / (arc.length - arc.middle);
+  const double height = part * arc.height;
+  if (std::abs(across - height) <= on_the_arc * arc.length) return x;
   const double room = across > height ? arc.reach - height : arc.reach + height;
   return x + ((across - height) * arc.reach / room - across) * arc.normal;
 }

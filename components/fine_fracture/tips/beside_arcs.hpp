@@ -7,23 +7,23 @@
 
 namespace sprekk::fine_fracture {
 
-/// The last segment of a path is an arc of straight pieces on the fine level, and its chord, a straight cell, on the
+/// The last segment of a path is an arc of two pieces on the fine level, and their chord, a straight cell, on the
 /// coarse one. A place between arc and chord lies on the other side of the fracture there; and beside a wall, the
 /// pressure of the pores on the coarse level follows the distance from the chord. So places in a strip along the chord,
 /// four heights of the arc wide to both sides, are moved across it: from the arc to the chord, from the rim nowhere,
 /// and linearly in between. Places on the arc itself belong to no side, and stay.
 class BesideArcs {
  public:
-  /// The ends of the pieces, m; the chord joins the first and the last one. An arc that turns back has no strip.
-  void add(const std::vector<Point>& points);
+  /// m: the ends of the chord, and the point where the pieces of the arc meet. An arc that turns back has no strip.
+  void add(const Point& from, const Point& middle, const Point& to);
   /// m, of places in a convex outline. A place that would leave it stays.
   std::vector<Point> on_coarse_level(std::vector<Point> places, const std::vector<Point>& outline) const;
 
  private:
   struct Arc {
-    Point from, along, normal;            ///< the chord begins at `from`; unit vectors
-    std::vector<double> places, heights;  ///< m, where the pieces end, along and across the chord
-    double reach;                         ///< m, half the width of the strip
+    Point from, along, normal;      ///< the chord begins at `from`; unit vectors
+    double length, middle, height;  ///< m, of the chord; where the pieces meet, along and across it
+    double reach;                   ///< m, half the width of the strip
   };
   static Point moved(const Arc& arc, const Point& x);
 

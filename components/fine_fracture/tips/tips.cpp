@@ -1,7 +1,6 @@
 #include "components/fine_fracture/tips/tips.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 #include "components/fine_fracture/tips/ends.hpp"
 #include "framework/mesh/mesh_change.hpp"
@@ -53,28 +52,25 @@ Point Tips::direction(const Tip& tip) const {
   return tip.end.at_end ? tangent : Point(-tangent);
 }
 
-std::vector<Point> Tips::corners_of_last_segment(const Tip& tip) const {
-  if (!tip.now.segment_start) return {};
+std::optional<Point> Tips::corner_of_last_segment(const Tip& tip) const {
+  if (!tip.now.segment_start) return std::nullopt;
   const Point end = position(tip, {});
-  return corners_of_arc(end - last_cell(tip.end).measure * direction(tip), *tip.now.segment_start, end);
+  return corner_of_arc(end - last_cell(tip.end).measure * direction(tip), *tip.now.segment_start, end);
 }
 
 Point Tips::end_direction(const Tip& tip) const {
-  const std::vector<Point> corners = corners_of_last_segment(tip);
-  return corners.empty() ? direction(tip) : Point((position(tip, {}) - corners.back()).normalized());
+  const std::optional<Point> corner = corner_of_last_segment(tip);
+  return corner ? Point((position(tip, {}) - *corner).normalized()) : direction(tip);
 }
 
 BesideArcs Tips::arcs_of_last_segments() const {
   BesideArcs arcs;
   if (maker_->has_offsets_on_walls()) return arcs;
-  for (const Tip& tip : tips_) {
-    if (!tip.now.segment_start) continue;
-    const Point end = position(tip, {});
-    std::vector<Point> points = {end - last_cell(tip.end).measure * direction(tip)};
-    std::ranges::copy(corners_of_last_segment(tip), std::back_inserter(points));
-    points.push_back(end);
-    arcs.add(points);
-  }
+  for (const Tip& tip : tips_)
+    if (const std::optional<Point> corner = corner_of_last_segment(tip)) {
+      const Point end = position(tip, {});
+      arcs.add(end - last_cell(tip.end).measure * direction(tip), *corner, end);
+    }
   return arcs;
 }
 
@@ -91,7 +87,7 @@ std::vector<FracturePath> Tips::paths_with(const std::vector<TipPath>& added) co
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     const std::size_t end = 2 * tips_[i].end.fracture + tips_[i].end.at_end;
     of_end[end] = &added[i];
-    segments[end] = {tips_[i].now.is_extendable, corners_of_last_segment(tips_[i])};
+    segments[end] = {tips_[i].now.is_extendable, corner_of_last_segment(tips_[i])};
   }
   std::vector<FracturePath> paths;
   for (int f = 0; f < static_cast<int>(mesh_.fractures.size()); ++f)

@@ -156,8 +156,8 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   Point direction(const Tip& tip) const;  ///< of the last cell
   Point end_direction(
       const Tip& tip) const;  ///< of the path in the fine level that the mesh has taken over, at its end
-  /// m, towards the tip; none where the fine level has no arc in its place.
-  std::vector<Point> corners_of_last_segment(const Tip& tip) const;
+  /// m; none where the fine level has no arc in its place.
+  std::optional<Point> corner_of_last_segment(const Tip& tip) const;
   BesideArcs arcs_of_last_segments() const;
   std::vector<FracturePath> paths_with(const std::vector<TipPath>& added) const;
   std::vector<TipPath> paths_now() const;

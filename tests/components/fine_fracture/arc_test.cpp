@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "components/fine_fracture/growth/arc.hpp"
+#include "framework/mesh/planar.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
@@ -22,21 +22,24 @@ struct Circle {
   }
 };
 
-TEST(CornersOfArc, BelongToTangentsOfACircle) {
-  for (const Circle circle : {Circle{40, 3.0}, Circle{-25, -0.4}, Circle{1e-4, 0.2}}) {
-    const PlaceOnPath start = circle.after(0), end = circle.after(0.012);
-    const std::vector<Point> corners = corners_of_arc(anchor, start.direction, end.position);
-    const int count = static_cast<int>(corners.size());
-    ASSERT_GE(count, 2);
-    EXPECT_LT(((corners[0] - anchor).normalized() - start.direction).norm(), 1e-6);
-    EXPECT_LT(((end.position - corners.back()).normalized() - end.direction).norm(), 1e-6);
-    EXPECT_NEAR((corners[0] - anchor).norm(), (end.position - corners.back()).norm(), 1e-9);
-    for (int i = 0; i + 1 < count; ++i) {
-      const PlaceOnPath touched = circle.after(0.012 * (i + 1) / count);
-      EXPECT_LT((0.5 * (corners[i] + corners[i + 1]) - touched.position).norm(), 1e-9);
-      EXPECT_LT(((corners[i + 1] - corners[i]).normalized() - touched.direction).norm(), 1e-6);
-      EXPECT_NEAR((corners[i + 1] - corners[i]).norm(), 2 * (corners[0] - anchor).norm(), 1e-9);
-    }
+/// The integral of the direction over the square root of the distance from the end, of straight pieces and of a circle.
+TEST(CornerOfArc, LetsTActAsAlongACircle) {
+  for (const Circle circle : {Circle{8, 3.0}, Circle{-5, -0.4}, Circle{0.1, 0.2}}) {
+    const double length = 0.012;
+    const PlaceOnPath start = circle.after(0), end = circle.after(length);
+    const Point corner = corner_of_arc(anchor, start.direction, end.position);
+    EXPECT_LT(((end.position - corner).normalized() - end.direction).norm(), 1e-6);
+    const double turn = circle.curvature * length, last = (end.position - corner).norm(),
+                 whole = last + (corner - anchor).norm();
+    EXPECT_NEAR((corner - anchor).norm() / whole, place_of_corner, 0.1 * turn * turn + 1e-12);
+    // Angles from that at the start.
+    const auto angle = [&](const Point& way) {
+      return std::atan2(cross(start.direction, way), start.direction.dot(way));
+    };
+    const double by_pieces = 2 * (angle(end.position - corner) * std::sqrt(last) +
+                                  angle(corner - anchor) * (std::sqrt(whole) - std::sqrt(last))),
+                 by_circle = turn * std::sqrt(length) * 4 / 3;
+    EXPECT_NEAR(by_pieces / by_circle, 1, 0.1 * turn * turn + 1e-8);
   }
 }
 
@@ -58,23 +61,18 @@ TEST(PlaceOnArc, LiesOnTheCircleWithItsDirection) {
 }
 
 /// A start that leads elsewhere: the arc does not become a loop.
-TEST(CornersOfArc, TurnByNoMoreThanSoMuch) {
+TEST(CornerOfArc, TurnsByNoMoreThanSoMuch) {
   const Point end = anchor + Point(0.01, 0);
   for (const double angle : {0.5, 1.6, 3.1, -0.6, -2.5}) {
-    const std::vector<Point> corners = corners_of_arc(anchor, {std::cos(angle), std::sin(angle)}, end);
-    const auto angle_of = [](const Point& way) { return std::atan2(way[1], way[0]); };
-    EXPECT_NEAR(angle_of(corners[0] - anchor), std::copysign(0.4, angle), 1e-9);
-    EXPECT_NEAR(angle_of(end - corners.back()), -std::copysign(0.4, angle), 1e-9);
+    const Point last = end - corner_of_arc(anchor, {std::cos(angle), std::sin(angle)}, end);
+    EXPECT_NEAR(std::atan2(last[1], last[0]), -std::copysign(0.4, angle), 1e-9);
+    EXPECT_NEAR(last.norm(), 0.0025, 1e-12);
   }
 }
 
-TEST(CornersOfArc, LieOnTheChordOfOneThatIsStraight) {
-  for (const Point& chord : {Point(0.01, 0), Point(0, -0.02), Point(3e-3, 4e-3)}) {
-    const std::vector<Point> corners = corners_of_arc(anchor, chord.normalized(), anchor + chord);
-    const double count = static_cast<double>(corners.size());
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      EXPECT_LT((corners[i] - anchor - (i + 0.5) / count * chord).norm(), 1e-12);
-  }
+TEST(CornerOfArc, LiesOnTheChordOfOneThatIsStraight) {
+  for (const Point& chord : {Point(0.01, 0), Point(0, -0.02), Point(3e-3, 4e-3)})
+    EXPECT_LT((corner_of_arc(anchor, chord.normalized(), anchor + chord) - anchor - 0.75 * chord).norm(), 1e-12);
 }
 
 }  // namespace

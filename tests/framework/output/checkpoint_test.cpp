@@ -148,7 +148,7 @@ TEST_F(CheckpointTest, AnotherFormatVersionIsRefusedWithBothVersions) {
   const std::string message = message_of_reading();
   EXPECT_THAT(message, HasSubstr("version 16"));
   EXPECT_THAT(message, HasSubstr("sprekk 9.8"));
-  EXPECT_THAT(message, HasSubstr("this program reads version 15"));
+  EXPECT_THAT(message, HasSubstr("this program reads version 16"));
 }
 
 TEST_F(CheckpointTest, AnotherSceneIsRefused) {
