@@ -141,12 +141,12 @@ TEST_F(CheckpointTest, AnotherFormatVersionIsRefusedWithBothVersions) {
   {
     Hdf5Writer newer(path);
     newer.text("format", "sprekk checkpoint");
-    newer.integers("format_version", std::array{16});
+    newer.integers("format_version", std::array{17});
     newer.text("program_version", "9.8");
     newer.close();
   }
   const std::string message = message_of_reading();
-  EXPECT_THAT(message, HasSubstr("version 16"));
+  EXPECT_THAT(message, HasSubstr("version 17"));
   EXPECT_THAT(message, HasSubstr("sprekk 9.8"));
   EXPECT_THAT(message, HasSubstr("this program reads version 16"));
 }
