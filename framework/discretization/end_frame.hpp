@@ -20,9 +20,9 @@ class EndFrame {
   /// +1 or -1: the side of the fracture, which may bend, and ahead of the end that of the line through the last wall.
   int side_of(const Point& x) const;
   int side_of_wall(const Mesh& mesh, int face) const;  ///< +1 or -1
-  int side_of_cell(const Mesh& mesh, int cell) const;
   /// That of its wall, and for a cell without a wall that of its centre; 0 for one that has the end as a corner: it
-  /// lies between walls, and positions decide.
+  /// lies ahead of the walls, and positions decide.
+  int side_of_cell(const Mesh& mesh, int cell) const;
 
   /// Polar coordinates around the end.
   struct Polar {

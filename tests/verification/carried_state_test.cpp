@@ -143,6 +143,7 @@ struct Case {
   const char* angle;
   Values values;
   double hours;
+  double load;  ///< most by which K moves; asked: 3e-3
 };
 
 class CarriedState : public ::testing::TestWithParam<Case> {};
@@ -174,7 +175,7 @@ TEST_P(CarriedState, IsThatOfTheMeshBeforeAndHasTheToughness) {
       EXPECT_LT(kick->slip, 1e-3) << run.time() / hour << " h, " << is_anew;
       EXPECT_LT(kick->pressure, 1e-4) << run.time() / hour << " h, " << is_anew;
       divided[is_anew] += kick->bend > 0;
-      EXPECT_LT(kick->load, 2.5e-3) << run.time() / hour << " h, " << is_anew;
+      EXPECT_LT(kick->load, GetParam().load) << run.time() / hour << " h, " << is_anew;
     }
   });
   EXPECT_GT(tips, 12);
@@ -189,17 +190,20 @@ std::string name_of(const ::testing::TestParamInfo<Case>& info) {
 }
 
 // At 20 degrees segments that turn are divided until 14 h.
-INSTANTIATE_TEST_SUITE_P(WithValuesOfPaper, CarriedState,
-                         ::testing::Values(Case{"45 deg", Values::of_paper, 19}, Case{"-45 deg", Values::of_paper, 9},
-                                           Case{"30 deg", Values::of_paper, 9}, Case{"-30 deg", Values::of_paper, 9},
-                                           Case{"20 deg", Values::of_paper, 14}, Case{"38 deg", Values::of_paper, 9}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    WithValuesOfPaper, CarriedState,
+    ::testing::Values(Case{"45 deg", Values::of_paper, 19, 2e-3}, Case{"-45 deg", Values::of_paper, 9, 2e-3},
+                      Case{"30 deg", Values::of_paper, 9, 2e-3}, Case{"-30 deg", Values::of_paper, 9, 2.1e-3},
+                      Case{"20 deg", Values::of_paper, 14, 2e-3}, Case{"38 deg", Values::of_paper, 9, 2e-3}),
+    name_of);
 
 // Steps and increments are long beside the wing. At 20 degrees it would turn by 0.15 rad in 3 h; growth makes the steps
 // shorter.
 INSTANTIATE_TEST_SUITE_P(InLongSteps, CarriedState,
-                         ::testing::Values(Case{"45 deg", Values::of_scene, 26}, Case{"-45 deg", Values::of_scene, 26},
-                                           Case{"20 deg", Values::of_scene, 26}, Case{"30 deg", Values::of_scene, 26}),
+                         ::testing::Values(Case{"45 deg", Values::of_scene, 26, 2.5e-3},
+                                           Case{"-45 deg", Values::of_scene, 26, 2.5e-3},
+                                           Case{"20 deg", Values::of_scene, 26, 2.5e-3},
+                                           Case{"30 deg", Values::of_scene, 26, 2.5e-3}),
                          name_of);
 
 // Edges of the fracture are 20 mm long. A kink of a quarter of that is followed by the mesh, a shorter one by the fine

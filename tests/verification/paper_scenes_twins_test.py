@@ -9,7 +9,7 @@ from scene_runs import ROOT, SceneRuns
 
 PAPER = ROOT / "configs/paper"
 SCENES = {
-    "wing_cracks": ["time.end=9h"],
+    "wing_cracks": ["time.end=12h"],
     "three_fractures": ["time.end=3h"],
 }
 RATE = 5.0e-9  # m^2/s
@@ -40,7 +40,7 @@ class PaperScenesTwins(SceneRuns):
         twins = {"rate times 1 + 1e-9": ({"settings": [rate]}, SAME, SAME), "two processes": ({"processes": 2}, ON_TWO, ON_TWO),
                  "turned by 30 degrees": ({"turn": (30, False)}, TURNED, PRESSURE_TURNED),
                  "mirrored": ({"turn": (0, True)}, TURNED, PRESSURE_TURNED)}
-        for name, trials in (("wing_cracks", 15), ("three_fractures", 10)):
+        for name, trials in (("wing_cracks", 20), ("three_fractures", 10)):
             with ThreadPoolExecutor(2) as pool:
                 whole = pool.submit(self.answer, name)
                 answers = {twin: pool.submit(self.answer, name, **what[0]) for twin, what in twins.items()}
