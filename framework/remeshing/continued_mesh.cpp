@@ -122,6 +122,7 @@ class Continuation {
     measure_overlap(grown);
     for (std::size_t e = 0; e < extensions_.size(); ++e)
       add_replaced_parts(mesh_, {last_cell_of_mesh(extensions_[e])}, mesh, grown.extension_cells[e], change);
+    mark_grown_cells(mesh_, grown);
     return grown;
   }
 

@@ -233,6 +233,15 @@ void relate_to_given(const Mesh& given, const HealedMesh& healed, GrownMesh& gro
 
 }  // namespace
 
+void mark_grown_cells(const Mesh& before, GrownMesh& grown) {
+  SPREKK_EXPECT(static_cast<int>(grown.change.fracture_cell.size()) == grown.mesh.fracture_cell_count(),
+                grown.change.fracture_cell.size(), grown.mesh.fracture_cell_count());
+  for (int i = 0; i < grown.mesh.fracture_cell_count(); ++i) {
+    const int origin = grown.change.fracture_cell[i];
+    grown.mesh.fracture_cells[i].grown = origin == none || before.fracture_cells[origin].grown;
+  }
+}
+
 GrownMesh extend_fractures(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                            const CavityOptions& options) {
   for (const double value : {options.radius, options.size, options.growth}) {
@@ -241,13 +250,18 @@ GrownMesh extend_fractures(const Mesh& mesh, const std::vector<PathExtension>& e
     }
   }
   if (!(options.gap_edges >= 0)) throw std::invalid_argument("extend_fractures: gap_edges must not be negative");
-  if (std::ranges::none_of(extensions, [](const PathExtension& extension) { return extension.replaced != 0; }))
-    return Growth(mesh, extensions, {}, options).run();
+  const bool replaces = std::ranges::any_of(extensions, [](const PathExtension& path) { return path.replaced != 0; });
+  if (!replaces) {
+    GrownMesh grown = Growth(mesh, extensions, {}, options).run();
+    mark_grown_cells(mesh, grown);
+    return grown;
+  }
   const HealedMesh healed = heal_ends(mesh, extensions);
   std::vector<PathExtension> from_anchors = extensions;
   for (PathExtension& extension : from_anchors) extension.replaced = 0;
   GrownMesh grown = Growth(healed.mesh, from_anchors, healed.scars, options).run();
   relate_to_given(mesh, healed, grown);
+  mark_grown_cells(mesh, grown);
   return grown;
 }
 

@@ -19,6 +19,9 @@ struct GrownMesh {
   std::vector<std::vector<int>> extension_cells;
 };
 
+/// Marks the fracture cells that are new, or come from cells that were marked (FractureCell::grown).
+void mark_grown_cells(const Mesh& before, GrownMesh& grown);
+
 /// Extends fractures. Each given segment becomes one or more fracture cells of about `size`, shorter in narrow gaps, or
 /// exactly one (PathExtension::whole_segments). Cells that an extension replaces close first; those around them are
 /// made anew together with those around the new path, so that every cell that is kept has kept its faces. Existing

@@ -26,6 +26,12 @@ bool go_on(const std::vector<PathExtension>& paths) {
   });
 }
 
+/// Whether the tips of this mesh can be moved to the ends of the paths.
+bool can_follow(const Mesh& mesh, const std::vector<PathExtension>& paths, const CavityOptions& cavity) {
+  const std::optional<GrownMesh> same = continued_mesh(mesh, paths, cavity);
+  return same && move_tips(mesh, *same, paths, cavity);
+}
+
 const Point& tip_of(const Mesh& mesh, const PathExtension& path) {
   const Fracture& fracture = mesh.fractures[path.fracture];
   const int last = path.at_end ? fracture.first_cell + fracture.cell_count - 1 : fracture.first_cell;
@@ -55,12 +61,14 @@ MeshChangeResult TrialMeshes::change(const Model& model, GrownMesh mesh) const {
 }
 
 /// The mesh with tips at rest has both parts of divided cells already, so paths on it begin behind the first part.
+std::vector<PathExtension> TrialMeshes::paths_from_rest(std::vector<PathExtension> paths) {
+  for (PathExtension& path : paths)
+    if (divides(path)) path.points.erase(path.points.begin());
+  return paths;
+}
+
 std::vector<PathExtension> TrialMeshes::paths_from_base(const std::vector<PathExtension>& paths) const {
-  std::vector<PathExtension> from = paths;
-  if (at_rest_)
-    for (PathExtension& path : from)
-      if (divides(path)) path.points.erase(path.points.begin());
-  return from;
+  return at_rest_ ? paths_from_rest(paths) : paths;
 }
 
 bool TrialMeshes::rest(const std::vector<PathExtension>& paths, Cells cells) {
@@ -75,6 +83,7 @@ bool TrialMeshes::rest(const std::vector<PathExtension>& paths, Cells cells) {
       grown = grow_mesh(accepted_, grow_step_, resting);
     } else if (const std::optional<GrownMesh> same = continued_mesh(accepted_.mesh(), resting, cavity)) {
       grown = move_tips(accepted_.mesh(), *same, resting, cavity);
+      if (grown && !can_follow(grown->mesh, paths_from_rest(paths), cavity)) grown.reset();
     }
     if (!grown) return false;
     grown->change.is_at_rest = true;

@@ -44,6 +44,7 @@ class TrialMeshes {
   void drop();
   std::optional<GrownMesh> moved(const std::vector<PathExtension>& paths);
   MeshChangeResult change(const Model& model, GrownMesh mesh) const;
+  static std::vector<PathExtension> paths_from_rest(std::vector<PathExtension> paths);
   std::vector<PathExtension> paths_from_base(const std::vector<PathExtension>& paths) const;
 
   Model& accepted_;

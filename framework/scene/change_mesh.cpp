@@ -91,10 +91,6 @@ GrownMesh grow_mesh(const Model& before, std::size_t grow_step, const std::vecto
 MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMesh grown, const StepTime& data,
                              IterationLog log) {
   partition(grown.mesh, parallel::size());
-  for (std::size_t i = 0; i < grown.mesh.fracture_cells.size(); ++i) {
-    const int origin = grown.change.fracture_cell[i];
-    grown.mesh.fracture_cells[i].grown = origin == none || before.mesh().fracture_cells[origin].grown;
-  }
   MeshChangeResult result{
       std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), grown.smallest_angle, {}};
   Model& model = *result.model;

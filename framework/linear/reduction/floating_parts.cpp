@@ -86,12 +86,12 @@ class Parts {
     };
     for (int row = 0; row < a_.rows(); ++row) {
       if (!is_balance[row]) continue;
-      int first = entity_of_[row];
+      int joined = entity_of_[row] < 0 ? -1 : root(entity_of_[row]);
       for (SparseMatrix::InnerIterator entry(a_, row); entry; ++entry) {
         const int entity = entry.value() == 0 ? -1 : entity_of_[entry.col()];
-        if (entity < 0 || entity == first) continue;
-        if (first < 0) first = entity;
-        parent[root(entity)] = root(first);
+        if (entity < 0) continue;
+        if (joined < 0) joined = root(entity);
+        if (parent[entity] != joined) parent[root(entity)] = joined;
       }
     }
     for (int entity = 0; entity < block_.entities; ++entity) {

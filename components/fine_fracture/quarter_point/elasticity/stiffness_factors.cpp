@@ -177,15 +177,15 @@ StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknown
         const int unknown = unknowns.of(2 * mesh.elements[e].nodes[k / 2] + k % 2);
         places[k] = unknown == none ? none : place_[unknown];
       }
-      const auto block_of = [&places](int node) {
-        const int place = places[2 * node] != none ? places[2 * node] : places[2 * node + 1];
-        return place == none ? none : place / 2;
-      };
+      std::array<int, 6> blocks;
+      for (int i = 0; i < 6; ++i) {
+        const int place = std::max(places[2 * i], places[2 * i + 1]);
+        blocks[i] = place == none ? none : place / 2;
+      }
       for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < 6; ++j) {
-          const int row = block_of(i), column = block_of(j);
-          if (row == none || column == none || row > column) continue;
-          BlockMatrix::Block& block = matrix.at(row, column);
+          if (blocks[i] == none || blocks[i] > blocks[j]) continue;
+          BlockMatrix::Block& block = matrix.at(blocks[i], blocks[j]);
           for (int k = 2 * i; k < 2 * i + 2; ++k)
             for (int l = 2 * j; l < 2 * j + 2; ++l)
               if (places[k] != none && places[l] != none) block(places[k] % 2, places[l] % 2) += stiffness[e](k, l);
