@@ -40,13 +40,16 @@ namespace {
 /// A triangulation whose nodes move from trial to trial, with the same topology.
 struct KeptTriangulation : KeptLevel {
   std::shared_ptr<const Triangulated> triangulated;
+  std::shared_ptr<const EliminationOrder> order;
 };
 
-std::shared_ptr<const KeptLevel> kept(const std::shared_ptr<const Triangulated>& triangulated) {
+std::shared_ptr<const KeptLevel> kept(const std::shared_ptr<const Triangulated>& triangulated,
+                                      const std::shared_ptr<const EliminationOrder>& order) {
   if (!triangulated) return nullptr;
   auto kept = std::make_shared<KeptTriangulation>();
   kept->outline = triangulated->outline;
   kept->triangulated = triangulated;
+  kept->order = order;
   return kept;
 }
 
@@ -101,9 +104,11 @@ class QuarterPointLevels : public FineLevelMaker {
     }
     const auto* before = dynamic_cast<const KeptTriangulation*>(request.kept.get());
     TriangulationKeeper keeper{request.anchor, request.keeps && before ? before->triangulated : nullptr};
-    FineModel model(request.domain.geometry, mesh, request.rock, tip, request.profile, &keeper);
+    FineModel model(request.domain.geometry, mesh, request.rock, tip, request.profile, &keeper,
+                    before ? before->order : nullptr);
+    auto kept_level = request.keeps ? kept(keeper.kept, model.elimination_order()) : nullptr;
     return {.level = std::make_unique<QuarterPointLevel>(std::move(model), tip, integrates),
-            .kept = request.keeps ? kept(keeper.kept) : nullptr};
+            .kept = std::move(kept_level)};
   }
   double room(double coarse_size) const override { return options_.mesh_ratio * coarse_size; }
   /// With a tolerance, meshes follow an error estimate, and factors are no smooth functions of the advance.

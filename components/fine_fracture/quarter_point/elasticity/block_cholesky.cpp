@@ -8,11 +8,11 @@
 
 namespace sprekk::fine_fracture {
 
-BlockMatrix::Block& BlockMatrix::at(int row, int column) {
+int BlockMatrix::find(int row, int column) const {
   SPREKK_EXPECT(is_index(column, count()) && row <= column, row, column, count());
   const auto place = std::lower_bound(rows.begin() + starts[column], rows.begin() + starts[column + 1], row);
   SPREKK_ASSERT(place != rows.begin() + starts[column + 1] && *place == row, row, column);
-  return blocks[place - rows.begin()];
+  return static_cast<int>(place - rows.begin());
 }
 
 BlockCholesky::BlockCholesky(const BlockMatrix& matrix) {

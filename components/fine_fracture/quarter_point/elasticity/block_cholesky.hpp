@@ -16,8 +16,8 @@ struct BlockMatrix {
   std::vector<Block> blocks;
 
   int count() const { return static_cast<int>(starts.size()) - 1; }
-  /// The block of a column in a row that it has.
-  Block& at(int row, int column);
+  /// The number of the block of a column in a row that it has.
+  int find(int row, int column) const;
 };
 
 /// The factorization A = L D L^T with D of 2 x 2 blocks, row by row along the elimination tree (Davis, ACM Trans. Math.

@@ -62,7 +62,7 @@ ElementVector gather(const FineMesh::Element& element, const Vector& values) {
 
 FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, FineRock rock,
                      const std::optional<TipPlace>& wanted, std::shared_ptr<Profile> profile,
-                     TriangulationKeeper* keeper)
+                     TriangulationKeeper* keeper, std::shared_ptr<const EliminationOrder> known)
     : profile_(std::move(profile)),
       geometry_(std::move(geometry)),
       rock_(std::move(rock)),
@@ -70,7 +70,7 @@ FineModel::FineModel(FineGeometry geometry, const FineMeshOptions& options, Fine
                   [&] { return std::make_shared<const FineMesh>(make_fine_mesh(geometry_, options, keeper)); })),
       unknowns_(geometry_, *mesh_),
       stiffness_(timed(*profile_, "assembly", [&] { return stiffness_by_element(*mesh_, rock_); })),
-      factors_(*mesh_, unknowns_, stiffness_, *profile_),
+      factors_(*mesh_, unknowns_, stiffness_, *profile_, std::move(known)),
       volume_forces_(timed(*profile_, "loads", [&] { return VolumeForces(*mesh_, rock_); })) {
   for (const char* name : {"ordering", "factorization", "back-solves"}) profile_->at(name).is_solver = true;
   const ScopedTimer timer(*profile_, "factors");

@@ -21,15 +21,17 @@ namespace sprekk::fine_fracture {
 class FineModel {
  public:
   /// Solutions will have the factors of all tips, or of the `wanted` one. Times in `profile`: mesh, assembly, ordering,
-  /// factorization, loads, back-solves, factors. `keeper` as for make_fine_mesh. Throws as make_fine_mesh does, and
-  /// std::runtime_error when the matrix is singular.
+  /// factorization, loads, back-solves, factors. `keeper` as for make_fine_mesh, `known` as for StiffnessFactors.
+  /// Throws as make_fine_mesh does, and std::runtime_error when the matrix is singular.
   FineModel(FineGeometry geometry, const FineMeshOptions& options, FineRock rock,
             const std::optional<TipPlace>& wanted = {}, std::shared_ptr<Profile> profile = std::make_shared<Profile>(),
-            TriangulationKeeper* keeper = nullptr);
+            TriangulationKeeper* keeper = nullptr, std::shared_ptr<const EliminationOrder> known = nullptr);
 
   const FineGeometry& geometry() const { return geometry_; }
   const FineMesh& mesh() const { return *mesh_; }
   const FineRock& rock() const { return rock_; }
+  /// For models of the same topology.
+  const std::shared_ptr<const EliminationOrder>& elimination_order() const { return factors_.order(); }
 
   /// The places at which each solve needs the stress offset and the body force.
   const std::vector<Point>& offset_places() const { return offset_places_; }

@@ -130,46 +130,60 @@ std::vector<int> order_of_minimum_degree(const NodeBlocks& blocks) {
   return sorted;
 }
 
-BlockMatrix pattern(const NodeBlocks& blocks, const std::vector<int>& order, const std::vector<int>& place) {
-  BlockMatrix matrix;
+std::shared_ptr<const EliminationOrder> make_order(const NodeBlocks& blocks) {
+  auto made = std::make_shared<EliminationOrder>();
+  made->first_unknown = blocks.first_unknown;
+  made->of_element = blocks.of_element;
+  const std::vector<int> order = order_of_minimum_degree(blocks);
+  SPREKK_ASSERT(static_cast<int>(order.size()) == blocks.count() && are_indices(order, blocks.count()), blocks.count());
+  std::vector<int>& place = made->place;
+  place.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<int>(k);
+  BlockMatrix& pattern = made->pattern;
   Neighbours neighbours(blocks);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const int column = static_cast<int>(k);
     neighbours.append(
-        order[k], [&](int other) { return place[other] <= column ? place[other] : none; }, matrix.rows);
-    matrix.starts.push_back(static_cast<int>(matrix.rows.size()));
+        order[k], [&](int other) { return place[other] <= column ? place[other] : none; }, pattern.rows);
+    pattern.starts.push_back(static_cast<int>(pattern.rows.size()));
   }
-  matrix.blocks.assign(matrix.rows.size(), BlockMatrix::Block::Zero());
-  return matrix;
+  for (const std::array<int, 6>& element : blocks.of_element) {
+    std::array<int, 36>& targets = made->targets.emplace_back();
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) {
+        const int row = element[i] == none ? none : place[element[i]],
+                  column = element[j] == none ? none : place[element[j]];
+        targets[6 * i + j] = row == none || row > column ? none : pattern.find(row, column);
+      }
+  }
+  return made;
 }
 
 }  // namespace
 
 StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknowns,
-                                   const std::vector<ElementMatrix>& stiffness, Profile& profile)
-    : place_(unknowns.count(), none) {
-  BlockMatrix matrix;
+                                   const std::vector<ElementMatrix>& stiffness, Profile& profile,
+                                   std::shared_ptr<const EliminationOrder> known)
+    : order_(std::move(known)), place_(unknowns.count(), none) {
+  SPREKK_EXPECT(stiffness.size() == mesh.elements.size(), stiffness.size(), mesh.elements.size());
   {
     const ScopedTimer timer(profile, "ordering");
     const NodeBlocks blocks(mesh, unknowns);
-    const std::vector<int> order = order_of_minimum_degree(blocks);
-    block_count_ = blocks.count();
-    std::vector<int> place(block_count_);
-    for (int k = 0; k < block_count_; ++k) place[order[k]] = k;
-    SPREKK_ASSERT(static_cast<int>(order.size()) == block_count_ && are_indices(order, block_count_), block_count_);
-    matrix = pattern(blocks, order, place);
-    for (int b = 0; b < block_count_; ++b) place_[blocks.first_unknown[b]] = 2 * place[b];
-    for (int u = 1; u < unknowns.count(); ++u)
-      if (place_[u] == none) place_[u] = place_[u - 1] + 1;
+    if (!order_ || order_->first_unknown != blocks.first_unknown || order_->of_element != blocks.of_element)
+      order_ = make_order(blocks);
   }
+  BlockMatrix matrix = order_->pattern;
+  matrix.blocks.assign(matrix.rows.size(), BlockMatrix::Block::Zero());
   {
     const ScopedTimer timer(profile, "assembly");
-    std::vector<char> is_used(2 * block_count_, false);
-    SPREKK_ASSERT(are_indices(place_, 2 * block_count_), block_count_);
-    SPREKK_EXPECT(stiffness.size() == mesh.elements.size(), stiffness.size(), mesh.elements.size());
+    for (int b = 0; b < block_count(); ++b) place_[order_->first_unknown[b]] = 2 * order_->place[b];
+    for (int u = 1; u < unknowns.count(); ++u)
+      if (place_[u] == none) place_[u] = place_[u - 1] + 1;
+    SPREKK_ASSERT(are_indices(place_, 2 * block_count()), block_count());
+    std::vector<char> is_used(2 * block_count(), false);
     for (const int place : place_) is_used[place] = true;
-    for (int i = 0; i < 2 * block_count_; ++i)
-      if (!is_used[i]) matrix.at(i / 2, i / 2)(i % 2, i % 2) = 1;
+    for (int i = 0; i < 2 * block_count(); ++i)
+      if (!is_used[i]) matrix.blocks[matrix.find(i / 2, i / 2)](i % 2, i % 2) = 1;
     for (std::size_t e = 0; e < stiffness.size(); ++e) {
       SPREKK_EXPECT(is_symmetric(stiffness[e]), e);
       std::array<int, 12> places;
@@ -177,15 +191,11 @@ StiffnessFactors::StiffnessFactors(const FineMesh& mesh, const Unknowns& unknown
         const int unknown = unknowns.of(2 * mesh.elements[e].nodes[k / 2] + k % 2);
         places[k] = unknown == none ? none : place_[unknown];
       }
-      std::array<int, 6> blocks;
-      for (int i = 0; i < 6; ++i) {
-        const int place = std::max(places[2 * i], places[2 * i + 1]);
-        blocks[i] = place == none ? none : place / 2;
-      }
       for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < 6; ++j) {
-          if (blocks[i] == none || blocks[i] > blocks[j]) continue;
-          BlockMatrix::Block& block = matrix.at(blocks[i], blocks[j]);
+          const int target = order_->targets[e][6 * i + j];
+          if (target == none) continue;
+          BlockMatrix::Block& block = matrix.blocks[target];
           for (int k = 2 * i; k < 2 * i + 2; ++k)
             for (int l = 2 * j; l < 2 * j + 2; ++l)
               if (places[k] != none && places[l] != none) block(places[k] % 2, places[l] % 2) += stiffness[e](k, l);
@@ -222,7 +232,7 @@ Eigen::MatrixXd StiffnessFactors::solve_within(const std::vector<int>& unknowns,
 Vector StiffnessFactors::solve(const Vector& b) const {
   SPREKK_EXPECT(b.size() == static_cast<Eigen::Index>(place_.size()), b.size(), place_.size());
   SPREKK_EXPECT(is_finite(b), b.size());
-  Vector placed = Vector::Zero(2 * block_count_);
+  Vector placed = Vector::Zero(2 * block_count());
   for (int i = 0; i < b.size(); ++i) placed[place_[i]] = b[i];
   placed = factors_->solve(std::move(placed));
   Vector x(b.size());
