@@ -1,7 +1,6 @@
 #include "framework/mesh/cell_sums.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "framework/invariants.hpp"
 
@@ -23,27 +22,23 @@ SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int componen
     for (int k = 0; k < components; ++k) {
       if (mesh.cell_rank[c] == rank) {
         // Merge of three or four sorted rows.
-        constexpr int most = 4;
-        const int past = static_cast<int>(faces.cols());
-        std::array<int, most> at{}, end{}, next;
-        std::array<double, most> sign{};
-        next.fill(past);
-        for (int j = 0; j < mesh.cell_faces[c].size(); ++j) {
+        const int count = mesh.cell_faces[c].size();
+        int at[4], end[4];
+        double sign[4];
+        for (int j = 0; j < count; ++j) {
           const int face = mesh.cell_faces[c][j];
           at[j] = outer[face * components + k];
           end[j] = outer[face * components + k + 1];
           sign[j] = mesh.face_cells[face][0] == c ? 1.0 : -1.0;
-          if (at[j] < end[j]) next[j] = inner[at[j]];
         }
         for (;;) {
-          const int column = std::min({next[0], next[1], next[2], next[3]});
-          if (column == past) break;
+          int column = faces.cols();
+          for (int j = 0; j < count; ++j)
+            if (at[j] < end[j]) column = std::min(column, inner[at[j]]);
+          if (column == faces.cols()) break;
           double sum = 0;
-          for (int j = 0; j < most; ++j) {
-            if (next[j] != column) continue;
-            sum += sign[j] * values[at[j]++];
-            next[j] = at[j] < end[j] ? inner[at[j]] : past;
-          }
+          for (int j = 0; j < count; ++j)
+            if (at[j] < end[j] && inner[at[j]] == column) sum += sign[j] * values[at[j]++];
           result_inner.push_back(column);
           result_values.push_back(sum);
         }

@@ -31,14 +31,6 @@ inline PathExtension straight(const Mesh& mesh, int fracture, bool at_end, doubl
   return {fracture, at_end, {tip(mesh, fracture, at_end) + length * turned(direction(mesh, fracture, at_end), angle)}};
 }
 
-/// Marks cells that have grown, as a run does after each change.
-inline void mark_grown(const Mesh& old, GrownMesh& grown) {
-  for (int i = 0; i < grown.mesh.fracture_cell_count(); ++i) {
-    const int origin = grown.change.fracture_cell[i];
-    grown.mesh.fracture_cells[i].grown = origin == none || old.fracture_cells[origin].grown;
-  }
-}
-
 /// Everything that mesh_change.hpp promises, and that build_mesh promises of the new mesh.
 inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
   const auto& [mesh, change, smallest, extension_cells] = grown;
@@ -83,6 +75,10 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
   ASSERT_EQ(change.new_cells, made);
   ASSERT_EQ(change.removed_cells, removed);
   ASSERT_NEAR(smallest, angle, 1e-6);
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+    const int from = change.fracture_cell[i];
+    ASSERT_EQ(mesh.fracture_cells[i].grown, from == none || old.fracture_cells[from].grown) << i;
+  }
 
   // Overlap.
   ASSERT_EQ(change.overlap.rows(), mesh.cell_count());
@@ -204,7 +200,6 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
 inline GrownMesh extended(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                           const CavityOptions& options) {
   GrownMesh grown = extend_fractures(mesh, extensions, options);
-  mark_grown(mesh, grown);
   expect_sound(mesh, grown);
   return grown;
 }

@@ -44,6 +44,39 @@ TEST(Griffith, IntensitiesHardlyDependOnTheDomainOfTheIntegral) {
     }
 }
 
+/// Models of one topology share the order of elimination; of another one it is not taken. Factors have the same bits.
+TEST(Griffith, KnownOrderOfEliminationChangesNothing) {
+  const auto box_at = [](double angle, double half_length) {
+    Tensor turn;
+    turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    FineGeometry geometry = paper_box();
+    for (Point& x : geometry.outline) x = turn * x;
+    geometry.cracks = {inner_crack(turn * Point(-half_length, 0), turn * Point(half_length, 0))};
+    return geometry;
+  };
+  TriangulationKeeper keeper;
+  const FineModel first(box_at(0.3, 0.05), paper_mesh(), table_1_rock, {}, std::make_shared<Profile>(), &keeper);
+  for (const auto& [angle, half_length] : {std::pair{0.3, 0.051}, std::pair{0.31, 0.05}, std::pair{0.3, 0.08}}) {
+    const Griffith exact{.a = half_length, .normal = 1e6, .shear = 0.7e6, .along = -3e6, .rock = table_1_rock};
+    Tensor turn;
+    turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    const FineLoads loads{.boundary_displacement = [&](const Point& x, const Point& inside) -> Point {
+      return turn * exact.displacement(turn.transpose() * x, turn.transpose() * inside);
+    }};
+    const bool is_same = half_length != 0.08;
+    TriangulationKeeper same = is_same ? keeper : TriangulationKeeper{};
+    TriangulationKeeper again = same;
+    const FineModel plain(box_at(angle, half_length), paper_mesh(), table_1_rock, {}, std::make_shared<Profile>(),
+                          &again);
+    const FineModel sharing(box_at(angle, half_length), paper_mesh(), table_1_rock, {}, std::make_shared<Profile>(),
+                            &same, first.elimination_order());
+    EXPECT_EQ(sharing.elimination_order() == first.elimination_order(), is_same) << angle << " " << half_length;
+    const FineSolution with = sharing.solve(loads), without = plain.solve(loads);
+    EXPECT_LT(worst_error(with, exact.K()), 1e-3) << angle << " " << half_length;
+    for (std::size_t t = 0; t < with.tips.size(); ++t) EXPECT_EQ(with.tips[t].K, without.tips[t].K);
+  }
+}
+
 TEST(Griffith, FramesOfBothTipsFollowAnyDirection) {
   const Griffith exact = paper_crack(1e6, 0.7e6, -3e6);
   for (const double angle : {0.4, 1.9, -2.6}) {
