@@ -1,7 +1,6 @@
 #include "framework/linear/reduction/bulk_splitting.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -113,7 +112,10 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
       UnknownBlock chosen = chosen_entities(block, is_local_, is_local, place_);
       if (chosen.entities > 0) (is_local ? local_blocks_ : bulk_blocks_).push_back(std::move(chosen));
     }
-  divide(system.local, bulk, local);
+  bb = extract(system.local, false, false);
+  bf = extract(system.local, false, true);
+  fb = extract(system.local, true, false);
+  ff = extract(system.local, true, true);
   SPREKK_ASSERT(bb.matrix.nonZeros() + bf.matrix.nonZeros() + fb.matrix.nonZeros() + ff.matrix.nonZeros() ==
                 system.local.nonZeros());
   SPREKK_ASSERT(is_well_formed(bb.matrix) && is_well_formed(ff.matrix), bulk, local);
@@ -133,34 +135,26 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
   }
 }
 
-void BulkSplitting::divide(const SparseMatrix& matrix, int bulk, int local) {
-  std::array<std::array<SubMatrix*, 2>, 2> parts{{{&bb, &bf}, {&fb, &ff}}};  // by whether rows and columns are local
-  const std::array<int, 2> sizes{bulk, local};
-  std::array<std::array<std::vector<int>, 2>, 2> starts, columns;
-  for (const int rows : {0, 1})
-    for (const int of : {0, 1}) starts[rows][of].reserve(sizes[rows] + 1), starts[rows][of].push_back(0);
-  columns[0][0].reserve(matrix.nonZeros());
-  bb.source.reserve(matrix.nonZeros());
-  const int *outer = matrix.outerIndexPtr(), *inner = matrix.innerIndexPtr();
+SubMatrix BulkSplitting::extract(const SparseMatrix& matrix, bool local_rows, bool local_columns) const {
+  SubMatrix sub;
+  std::vector<int> starts{0}, columns;
   for (int row = 0; row < matrix.rows(); ++row) {
-    const int kind = is_local_[row] != 0;
-    for (int k = outer[row]; k < outer[row + 1]; ++k) {
-      const int column = inner[k], of = is_local_[column] != 0;
-      columns[kind][of].push_back(place_[column]);
-      parts[kind][of]->source.push_back(k);
+    if (static_cast<bool>(is_local_[row]) != local_rows) continue;
+    for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k) {
+      const int column = matrix.innerIndexPtr()[k];
+      if (static_cast<bool>(is_local_[column]) != local_columns) continue;
+      columns.push_back(place_[column]);
+      sub.source.push_back(k);
     }
-    for (const int of : {0, 1}) starts[kind][of].push_back(static_cast<int>(columns[kind][of].size()));
+    starts.push_back(static_cast<int>(columns.size()));
   }
-  for (const int rows : {0, 1})
-    for (const int of : {0, 1}) {
-      SparseMatrix& part = parts[rows][of]->matrix;
-      const std::vector<int>& inside = columns[rows][of];
-      part.resize(sizes[rows], sizes[of]);
-      part.resizeNonZeros(static_cast<Eigen::Index>(inside.size()));
-      std::ranges::copy(starts[rows][of], part.outerIndexPtr());
-      std::ranges::copy(inside, part.innerIndexPtr());
-      std::fill_n(part.valuePtr(), inside.size(), std::nan(""));  // the first update is a change
-    }
+  const auto width = std::count(is_local_.begin(), is_local_.end(), static_cast<char>(local_columns));
+  sub.matrix.resize(static_cast<int>(starts.size()) - 1, static_cast<int>(width));
+  sub.matrix.resizeNonZeros(columns.size());
+  std::copy(starts.begin(), starts.end(), sub.matrix.outerIndexPtr());
+  std::copy(columns.begin(), columns.end(), sub.matrix.innerIndexPtr());
+  std::fill_n(sub.matrix.valuePtr(), columns.size(), std::nan(""));  // the first update is a change
+  return sub;
 }
 
 bool BulkSplitting::fits(const SparseMatrix& matrix) const {

@@ -56,7 +56,7 @@ class BulkSplitting {
 
  private:
   Vector part(const Vector& whole, bool local, int size) const;
-  void divide(const SparseMatrix& matrix, int bulk, int local);
+  SubMatrix extract(const SparseMatrix& matrix, bool local_rows, bool local_columns) const;
 
   std::vector<int> outer_, inner_;
   std::vector<char> held_;

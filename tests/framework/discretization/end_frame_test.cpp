@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "framework/discretization/end_surroundings.hpp"
+#include "framework/mesh/build_mesh.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
@@ -81,6 +83,48 @@ INSTANTIATE_TEST_SUITE_P(Kinks, KinkedFracture, ::testing::Values(0.3, -0.3, 0.8
                            return (info.param < 0 ? "right_" : "left_") +
                                   std::to_string(static_cast<int>(std::abs(info.param) * 10 + 0.5));
                          });
+
+// A cell ahead of the end, between its walls, is so obtuse that one of its corners lies behind the end, and its centre
+// on the other side. Angles are those of the corners, within half a turn of the direction ahead.
+TEST(EndOfFracture, HasAnglesWithinHalfATurnInObtuseCells) {
+  const double degree = std::numbers::pi / 180;
+  for (const double turn : {0.0, 0.5, 2.0, -2.8})
+    for (const double mirror : {1.0, -1.0})
+      for (const double disturbed : {1.0, 1 + 1e-9}) {
+        const auto at = [&](double radius, double angle) {
+          return turned({radius, 0}, turn + mirror * angle * degree * disturbed);
+        };
+        // The end, the other end of the fracture, and the corners behind the end and ahead of it.
+        RawMesh raw;
+        raw.nodes = {Point::Zero(), at(1, 180), at(1, 100), at(3, -75)};
+        for (Ring cell : {Ring(0, 2, 1), Ring(0, 1, 3), Ring(0, 3, 2)}) {
+          if (mirror < 0) cell.turn();
+          raw.cells.push_back(cell);
+        }
+        raw.regions.assign(3, 0);
+        raw.region_names = {"rock"};
+        raw.side_names = {"outside"};
+        for (const auto& ends : {std::array{1, 2}, std::array{2, 3}, std::array{3, 1}})
+          raw.boundary_edges.push_back({ends, 0});
+        raw.fractures = {{"crack", {1, 0}}};
+        const Mesh mesh = build_mesh(raw);
+        int end = none;
+        for (int node = 0; node < mesh.node_count(); ++node)
+          if (mesh.nodes[node].norm() < 1e-12) end = node;
+        ASSERT_NE(end, none);
+        const EndFrame frame(mesh, end);
+        for (int cell = 0; cell < mesh.cell_count(); ++cell)
+          for (const int node : mesh.cell_nodes[cell]) {
+            if (node == end) continue;
+            const Point& x = mesh.nodes[node];
+            const double found = frame.polar(x, frame.side_of_cell(mesh, cell)).angle / degree;
+            if ((x - at(1, 180)).norm() < 1e-6)
+              EXPECT_NEAR(std::abs(found), 180, 1e-6) << turn << " " << mirror;
+            else
+              EXPECT_NEAR(found, mirror * ((x - at(1, 100)).norm() < 1e-6 ? 100 : -75), 1e-6) << turn << " " << mirror;
+          }
+      }
+}
 
 }  // namespace
 }  // namespace sprekk::test

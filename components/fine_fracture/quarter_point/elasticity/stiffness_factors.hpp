@@ -17,7 +17,7 @@ namespace sprekk::fine_fracture {
 using ElementMatrix = Eigen::Matrix<double, 12, 12>;
 
 /// In which order the blocks of unknowns are eliminated, and where their matrix has entries: the same for all meshes of
-/// one topology. Blocks have the numbers of their nodes.
+/// one topology. Blocks are numbered as their nodes come.
 struct EliminationOrder {
   std::vector<int> first_unknown;              ///< by block
   std::vector<std::array<int, 6>> of_element;  ///< the blocks of its nodes, or none
