@@ -23,6 +23,7 @@ constexpr double shorter = 0.5;                ///< steps after a trial that was
 constexpr double of_direction = 0.1;           ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
 constexpr double slope_of_differences = 0.01;  ///< of H by an advance, see most_equal_front.hpp
 constexpr double least_of_difference = 1;      ///< the least weight of differences of advances in that norm
+constexpr double of_differences = 0.03;        ///< the tolerance of differences of advances over that of loads
 
 }  // namespace
 
@@ -71,8 +72,8 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
   angle_ = angles;
 }
 
-/// An error in the equations for differences of advances, and one in a load, count alike if they are worth the same
-/// advance of all tips.
+/// In the norm of a trial an error in the equations for differences of advances, and one in a load, count alike if they
+/// are worth the same advance of all tips.
 void Front::weigh_differences() {
   double steepest = 0;
   for (int i = 0; i < count(); ++i) {
@@ -158,7 +159,7 @@ void Front::learn(const std::vector<FrontState>& states) {
   const Eigen::VectorXd counted = count_loads(found, front);
   worst_ = worst_shear_ = 0;
   bool is_met = has_equal_advances(found) &&
-                of_difference_ * front.difference.lpNorm<Eigen::Infinity>() <= options_.load_tolerance;
+                front.difference.lpNorm<Eigen::Infinity>() <= of_differences * options_.load_tolerance;
   for (int i = 0; i < count(); ++i) {
     if (!grows_[i]) {
       if (may_start(i) && load_at_rest(i, found) > options_.load_tolerance) is_met = false;

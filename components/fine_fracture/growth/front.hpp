@@ -46,7 +46,7 @@ struct FrontState {
 /// Tolerances and limits of the search.
 struct FrontOptions {
   double mesh_error = 1e-3;           ///< of ln K between tips, see most_equal_front.hpp; 0: each K is the toughness
-  double load_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)|, or the excess, of growing tips; as exact in advances, g_i
+  double load_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)|, or the excess, of growing tips
   double direction_tolerance = 1e-6;  ///< |K_II/K_I| of growing tips
   double increment = 0;               ///< m, the scale of advances
   double shortest = 0;                ///< m, of a new segment
@@ -171,7 +171,7 @@ class Front {
   bool is_warm_ = false;  ///< whether the Jacobian comes from an earlier search: a warm start
   bool is_other_mesh_ = false, is_rough_ = false;
   static constexpr double most_of_difference = 30;  ///< slopes of loads, 0.3, over those of H, 0.01
-  double of_difference_ = most_of_difference;       ///< the weight of differences of advances beside loads
+  double of_difference_ = most_of_difference;       ///< the weight of differences of advances in norm()
   double part_ = 1;                                 ///< of steps, smaller after trials that were worse
   Verdict verdict_ = Verdict::again;
   int trials_ = 0, last_gain_ = 0;
