@@ -55,6 +55,13 @@ TEST(SpreadMotion, IsLinearAlsoWhereANodeDoesNotMove) {
   const auto second = spread_motion(nodes, edges, is_at_rest, {{0, Point::Zero()}, {3, v}});
   for (std::size_t node = 0; node < nodes.size(); ++node)
     EXPECT_NEAR((both[node] - first[node] - second[node]).norm(), 0, 1e-16);
+  // Equations that are kept give the same bits, whatever was asked for before.
+  const SpreadMotion spread(nodes, edges, is_at_rest, {0, 3});
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(spread.of({{0, u}, {3, v}}), both);
+    EXPECT_EQ(spread.of({{3, Point::Zero()}, {0, u}}), first);
+    EXPECT_EQ(spread.of({{3, v}}), second);
+  }
 }
 
 TEST(SpreadMotion, RefusesNodesWithoutConnection) {

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "framework/mesh/planar.hpp"
-#include "framework/remeshing/spread_motion.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
@@ -59,6 +58,18 @@ double smallest_angle(const std::vector<Point>& nodes, const std::vector<Ring>& 
   return smallest;
 }
 
+std::shared_ptr<const Triangulated::Followers> followers(const RawMesh& raw, const std::map<int, Point>& places) {
+  std::set<std::array<int, 2>> edges;
+  for (const Ring& cell : raw.cells)
+    for (int k = 0; k < 3; ++k)
+      edges.insert({std::min(cell[k], cell[(k + 1) % 3]), std::max(cell[k], cell[(k + 1) % 3])});
+  std::vector<int> moved;
+  for (const auto& [node, place] : places) moved.push_back(node);
+  return std::shared_ptr<const Triangulated::Followers>(
+      new Triangulated::Followers{{raw.nodes, {edges.begin(), edges.end()}, std::vector<bool>(raw.nodes.size()), moved},
+                                  smallest_angle(raw.nodes, raw.cells)});
+}
+
 }  // namespace
 
 std::optional<OutsideMesh> moved_mesh(const Triangulated& made, const FineGeometry& geometry,
@@ -88,20 +99,15 @@ std::optional<OutsideMesh> moved_mesh(const Triangulated& made, const FineGeomet
     const std::vector<int>& chain = raw.fractures[to.crack].nodes;
     places[to.is_last ? chain.back() : chain.front()] = to.position;
   }
-  std::set<std::array<int, 2>> edges;
-  for (const Ring& cell : raw.cells)
-    for (int k = 0; k < 3; ++k)
-      edges.insert({std::min(cell[k], cell[(k + 1) % 3]), std::max(cell[k], cell[(k + 1) % 3])});
   std::vector<MovedNode> moved;
   for (const auto& [node, place] : places) moved.push_back({node, made.frame.inward(place) - raw.nodes[node]});
-  const std::vector<Point> motion =
-      spread_motion(raw.nodes, {edges.begin(), edges.end()}, std::vector<bool>(raw.nodes.size()), moved);
+  if (!made.followers) made.followers = followers(raw, places);
+  const std::vector<Point> motion = made.followers->motion.of(moved);
   OutsideMesh result = made.mesh;
   for (std::size_t i = 0; i < motion.size(); ++i) result.raw.nodes[i] = made.frame.outward(raw.nodes[i] + motion[i]);
   for (const auto& [node, place] : places) result.raw.nodes[node] = place;
   constexpr double least = 0.5;  // of the smallest angle
-  if (!(smallest_angle(result.raw.nodes, raw.cells) > least * smallest_angle(raw.nodes, raw.cells)))
-    return std::nullopt;
+  if (!(smallest_angle(result.raw.nodes, raw.cells) > least * made.followers->smallest_angle)) return std::nullopt;
   return result;
 }
 

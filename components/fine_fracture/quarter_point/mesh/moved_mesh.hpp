@@ -1,6 +1,7 @@
 // The triangulation of a fine level for another geometry with the same topology.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "components/fine_fracture/quarter_point/mesh/outside_mesh.hpp"
 #include "components/fine_fracture/quarter_point/mesh/room.hpp"
 #include "components/fine_fracture/quarter_point/mesh/rounded_geometry.hpp"
+#include "framework/remeshing/spread_motion.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -18,6 +20,12 @@ struct Triangulated {
   std::vector<TipRoom> rooms;
   OutsideMesh mesh;            ///< with the triangles of the rosettes and the tips
   std::vector<Point> outline;  ///< m, of the geometry that was first wanted
+  /// How nodes follow, in its frame, and its smallest angle (rad): found when it is moved first.
+  struct Followers {
+    SpreadMotion motion;
+    double smallest_angle;
+  };
+  mutable std::shared_ptr<const Followers> followers = {};
 };
 
 /// The triangulation `made` with its nodes moved to another geometry, whose rooms are given: nodes of the outline and
