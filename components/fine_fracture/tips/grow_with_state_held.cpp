@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "components/fine_fracture/growth/coarse_path.hpp"
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
 #include "framework/remeshing/extension_check.hpp"
@@ -128,7 +129,8 @@ Growing::Growth Tips::grow(const StepTime&) {
     if (outcome.increments == 0) continue;
     result.arrested = result.arrested && (outcome.arrested || outcome.blocked);
     if (!is_long_enough(tip, tip.now.path)) continue;
-    extensions.push_back({tip.end.fracture, tip.end.at_end, coarse_path(tip, tip.now.path)});
+    extensions.push_back({tip.end.fracture, tip.end.at_end,
+                          coarse_path(position(tip, {}), tip.now.path.added, tip.coarse_size, SharpBends::stay)});
   }
   stop_refused(extensions, outcomes);
   // Tips join other fractures last, when the paths of all others are known. A path that joins a fracture replaces the
@@ -152,24 +154,6 @@ Growing::Growth Tips::grow(const StepTime&) {
       return std::ranges::none_of(met, [&](std::size_t i) { return is_same(tips_[i].end, end_of(extension)); });
     });
   return result;
-}
-
-/// The path with no edges shorter than half of the coarse mesh size, except for a single one (sec. 4.4.2 of the paper).
-std::vector<Point> Tips::coarse_path(const Tip& tip, const TipPath& path) const {
-  const double shortest = 0.5 * tip.coarse_size;
-  std::vector<Point> points;
-  Point last = position(tip, {});
-  for (const Point& x : path.added) {
-    if ((x - last).norm() < shortest) continue;
-    points.push_back(x);
-    last = x;
-  }
-  const Point& end = path.added.back();
-  if (points.empty())
-    points.push_back(end);
-  else
-    points.back() = end;
-  return points;
 }
 
 }  // namespace sprekk::fine_fracture

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "components/fine_fracture/growth/coarse_path.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/meshing/fracture_networks.hpp"
@@ -60,7 +61,8 @@ std::optional<Tips::Joining> Tips::find_joining(const Tip& tip, const TipOutcome
   for (const auto& [away, point] : candidates) {
     TipPath path = tip.now.path;
     path.added.push_back(point->position);
-    const PathExtension extension{tip.end.fracture, tip.end.at_end, coarse_path(tip, path)};
+    const PathExtension extension{tip.end.fracture, tip.end.at_end,
+                                  coarse_path(position(tip, {}), path.added, tip.coarse_size, SharpBends::are_dropped)};
     std::vector<PathExtension> all = others;
     all.push_back(extension);
     try {

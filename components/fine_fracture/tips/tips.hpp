@@ -204,7 +204,6 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   /// Whether an increment of the other tip affects this tip at once; farther increments do so from the next step on.
   bool is_near(const Tip& tip, const Tip& other) const;
   double free_distance(const Tip& tip, const TipPath& path, const Point& to) const;
-  std::vector<Point> coarse_path(const Tip& tip, const TipPath& path) const;
   /// A path that ends at another fracture.
   struct Joining {
     PathExtension extension;
