@@ -12,8 +12,8 @@ namespace sprekk::fine_fracture {
 enum class SharpBends { stay, are_dropped };
 
 /// The points (m) of a path from `start`, without those that would make an edge shorter than half of `coarse_size`, m
-/// (sec. 4.4.2 of the paper). The end stays. Next to a sharp bend that stays edges are a tenth of `coarse_size` at
-/// least. `added`: at least one point.
+/// (sec. 4.4.2 of the paper). The end stays. A sharp bend stays where its edges are a tenth of `coarse_size` at least.
+/// `added`: at least one point.
 std::vector<Point> coarse_path(const Point& start, const std::vector<Point>& added, double coarse_size,
                                SharpBends bends);
 

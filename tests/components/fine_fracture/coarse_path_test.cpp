@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 namespace sprekk::test {
 namespace {
@@ -17,7 +19,7 @@ double length_of(const Point& start, const std::vector<Point>& points) {
   return length;
 }
 
-/// Turned, mirrored and moved by a trace.
+/// Turned, mirrored, and larger by a trace.
 class CoarsePath : public ::testing::TestWithParam<std::tuple<double, double, double>> {
  protected:
   Point at(double x, double y) const {
