@@ -3,13 +3,16 @@
 
 import argparse
 import json
+import os
+import shutil
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import numpy as np
 from stress_state import P, at_rest, change, grids, sprekk
-from stress_suite import check_balance, check_contact, check_finite, check_pressure, compare, examine, physics, summary, written
+from stress_suite import check_balance, check_contact, check_finite, check_pressure, compare, examine, physics, run, summary, written
 
 
 class Checks(unittest.TestCase):
@@ -232,6 +235,21 @@ class Summary(unittest.TestCase):
                  "cuts": {"singular": 0, "not converged": 1}, "seconds": 1.0}] * 40
         self.assertTrue(summary.cuts_too_often(many, "meeting"))
         self.assertFalse(summary.cuts_too_often(many, "growing"))
+
+
+class Runs(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("mpirun"), "no mpirun")
+    def test_on_two_processes_whoever_calls(self):
+        """mpirun refuses root, and more processes than cores, unless it is told otherwise: also where nobody has set its environment."""
+        bare = {name: value for name, value in os.environ.items() if not name.startswith("OMPI_")}
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.dict(os.environ, bare, clear=True):
+            program = Path(folder) / "program"
+            program.write_text("#!/bin/sh\necho on process $OMPI_COMM_WORLD_RANK >&2\n", encoding="utf-8")
+            program.chmod(0o755)
+            ended = run.run(program, "scene.yaml", Path(folder) / "out", limit=60, processes=2)
+        self.assertEqual(ended.code, 0, ended.stderr)
+        for rank in (0, 1):
+            self.assertIn(f"on process {rank}", ended.stderr)
 
 
 if __name__ == "__main__":

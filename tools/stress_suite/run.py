@@ -8,6 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 
+# As in tools/environment.sh: root (containers), and more processes than cores, whose waiting ones then yield.
+OF_MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+          "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_mpi_yield_when_idle": "1"}
+
+
 @dataclass
 class Ended:
     folder: Path      # of the results
@@ -21,7 +26,7 @@ def run(program, scene, folder, limit, processes=1):
     command = [str(program), "run", str(scene), "-o", str(folder)]
     if processes > 1:
         command = ["mpirun", "-n", str(processes), *command]
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
+    environment = {**os.environ, **OF_MPI, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
                    "ASAN_OPTIONS": "detect_leaks=0", "UBSAN_OPTIONS": "print_stacktrace=1"}
     began = time.monotonic()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace",
