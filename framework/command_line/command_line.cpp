@@ -171,15 +171,23 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   reference_command->add_option("folder", reference_folder, "Where to")->required()->type_name("FOLDER");
   CLI::App* manual_command = app.add_subcommand("man", "Prints the manual page, for man");
   CLI::App* completion_command = app.add_subcommand("completion", "Prints a script that completes commands in a shell");
-  std::vector<std::string> plugins;
-  for (CLI::App* command : {run_command, check_command, show_command, fractures_command, graph_command, list_command,
-                            explain_command, schema_command, reference_command, sweep.command()})
+  std::vector<std::string> plugins, plugin_folders;
+  for (CLI::App* command :
+       {run_command, check_command, show_command, fractures_command, graph_command, list_command, explain_command,
+        schema_command, reference_command, sweep.command(), converge.command(), schemes.command()}) {
     command
         ->add_option("--plugin", plugins,
-                     "Loads a shared library with further components and couplers; once for each. SPREKK_PLUGINS and a "
-                     "scene's 'plugins' list more")
+                     "Loads a shared library with further components and couplers; once for each. SPREKK_PLUGINS lists "
+                     "more")
         ->allow_extra_args(false)
         ->type_name("FILE");
+    command
+        ->add_option("--plugins", plugin_folders,
+                     "Trusts the shared libraries in a folder: those that a scene names by 'plugins' are loaded; once "
+                     "for each. SPREKK_PLUGIN_FOLDERS lists more")
+        ->allow_extra_args(false)
+        ->type_name("FOLDER");
+  }
   completion_command->add_option("shell", shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
 
   try {
@@ -195,8 +203,9 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   }
 
   try {
-    load_plugins_of_environment();
-    for (const std::string& file : plugins) load_plugin(file, {"--plugin"});
+    take_plugins_of_environment();
+    for (const std::string& file : plugins) load_plugin_of_user(file, {"--plugin"});
+    for (const std::string& folder : plugin_folders) trust_plugins_in(folder, {"--plugins"});
     if (*list_command) print_list(std::cout);
     if (*explain_command) print_explanation(explained, std::cout);
     if (*schema_command) schema_of == "study" ? print_study_schema(std::cout) : print_schema(std::cout);

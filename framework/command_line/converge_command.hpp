@@ -12,6 +12,7 @@ namespace sprekk {
 class ConvergeCommand {
  public:
   explicit ConvergeCommand(CLI::App& app);
+  CLI::App* command() { return command_; }
   bool is_called() const { return command_->parsed(); }
   ExitCode run() const;  ///< throws InputError
 

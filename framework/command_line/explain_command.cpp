@@ -90,7 +90,8 @@ void print_schema(std::ostream& out) {
   properties["name"] = {{"type", "string"}, {"description", "Name of the scene; the file's name by default."}};
   properties["plugins"] = {
       {"description",
-       "Shared libraries with further components and couplers, relative to the scene; see 'sprekk new'."},
+       "Shared libraries with further components and couplers, relative to the scene, in folders that --plugins "
+       "names; see 'sprekk new'."},
       {"anyOf", {{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}}}}};
   properties["materials"] = {{"type", "object"}, {"description", "Properties shared by all components."}};
   json materials = json::object(), components = json::array(), couplers = json::array(), steps = json::array();

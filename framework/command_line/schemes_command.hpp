@@ -12,6 +12,7 @@ namespace sprekk {
 class SchemesCommand {
  public:
   explicit SchemesCommand(CLI::App& app);
+  CLI::App* command() { return command_; }
   bool is_called() const { return command_->parsed(); }
   ExitCode run() const;  ///< throws InputError
 

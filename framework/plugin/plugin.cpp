@@ -63,6 +63,34 @@ InputError refused(const std::filesystem::path& file, const std::string& said, c
                     "add the source that defines it to the plug-in, or build it anew for this program");
 }
 
+constexpr const char* plugins_variable = "SPREKK_PLUGINS";
+constexpr const char* folders_variable = "SPREKK_PLUGIN_FOLDERS";
+
+/// What the user, not a scene, has said: plug-ins that he or she has named, and folders that are trusted; whole paths.
+struct WordOfUser {
+  std::vector<std::filesystem::path> plugins, folders;
+};
+
+WordOfUser& word_of_user() {
+  static WordOfUser word;
+  return word;
+}
+
+/// The parts of a variable between ':', without empty ones.
+std::vector<std::string> listed_in(const char* variable) {
+  const char* const text = std::getenv(variable);
+  std::istringstream whole(text == nullptr ? "" : text);
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(whole, part, ':');)
+    if (!part.empty()) parts.push_back(part);
+  return parts;
+}
+
+bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const std::filesystem::path way = file.lexically_relative(folder);
+  return !way.empty() && *way.begin() != ".." && way != ".";
+}
+
 }  // namespace
 
 const std::vector<Plugin>& loaded_plugins() { return plugins(); }
@@ -102,12 +130,50 @@ void load_plugin(const std::filesystem::path& file, const Origin& where) {
   plugins().push_back(done.plugin);
 }
 
-void load_plugins_of_environment() {
-  const char* const listed = std::getenv("SPREKK_PLUGINS");
-  if (listed == nullptr) return;
-  std::istringstream files(listed);
-  for (std::string file; std::getline(files, file, ':');)
-    if (!file.empty()) load_plugin(file, {"SPREKK_PLUGINS"});
+void load_plugin_of_user(const std::filesystem::path& file, const Origin& where) {
+  load_plugin(file, where);
+  word_of_user().plugins.push_back(std::filesystem::canonical(file));
+}
+
+void trust_plugins_in(const std::filesystem::path& folder, const Origin& where) {
+  std::error_code failure;
+  const std::filesystem::path place = std::filesystem::canonical(folder, failure);
+  if (failure || !std::filesystem::is_directory(place))
+    throw InputError(where, "there is no folder '" + folder.string() + "'", "plug-ins in it were to be trusted",
+                     "correct the path");
+  word_of_user().folders.push_back(place);
+}
+
+void take_plugins_of_environment() {
+  for (const std::string& file : listed_in(plugins_variable)) load_plugin_of_user(file, {plugins_variable});
+  for (const std::string& folder : listed_in(folders_variable)) trust_plugins_in(folder, {folders_variable});
+}
+
+void load_plugin_of_scene(const std::filesystem::path& file, const Origin& where) {
+  std::error_code failure;
+  const std::filesystem::path place = std::filesystem::weakly_canonical(file, failure);
+  const bool is_trusted =
+      std::ranges::any_of(plugins(), [&](const Plugin& known) { return known.file == place; }) ||
+      std::ranges::any_of(word_of_user().folders, [&](const auto& folder) { return is_inside(place, folder); });
+  if (std::filesystem::exists(place, failure) && !is_trusted)
+    throw InputError(where, "the plug-in '" + file.string() + "' is in no folder that you trust",
+                     "a plug-in is a program and may do all that you may; nothing of it was opened",
+                     "if you know where it comes from, add '--plugins " + place.parent_path().string() + "', or set " +
+                         folders_variable);
+  load_plugin(file, where);
+}
+
+std::map<std::string, std::string> plugin_environment() {
+  std::map<std::string, std::string> variables;
+  const auto list = [&](const char* variable, const std::vector<std::filesystem::path>& paths) {
+    for (const std::filesystem::path& path : paths) {
+      std::string& text = variables[variable];
+      text += (text.empty() ? "" : ":") + path.string();
+    }
+  };
+  list(plugins_variable, word_of_user().plugins);
+  list(folders_variable, word_of_user().folders);
+  return variables;
 }
 
 }  // namespace sprekk

@@ -89,7 +89,7 @@ std::vector<std::string> material_names() {
   return {names.begin(), names.end()};
 }
 
-/// Loads the libraries that the scene names, relative to its folder.
+/// Loads the libraries that the scene names, relative to its folder, if the user trusts them.
 void read_plugins(const Node& whole, const ReadContext& read) {
   const Node* plugins = whole.find("plugins");
   if (!plugins || plugins->is_null()) return;
@@ -97,7 +97,7 @@ void read_plugins(const Node& whole, const ReadContext& read) {
     if (!file.is_scalar() || file.scalar.empty())
       throw InputError(file.origin, "'plugins' names no file", "it is the path of a shared library, or a list of them",
                        "write 'plugins: [build/my_part.so]'");
-    load_plugin(std::filesystem::path(read.folder) / file.scalar, file.origin);
+    load_plugin_of_scene(std::filesystem::path(read.folder) / file.scalar, file.origin);
     read.record(file.path, yaml_scalar(file.scalar), file.origin.text());
   };
   if (plugins->is_list())

@@ -197,6 +197,10 @@ Scene Study::scene_of(const StudyRun& run) const {
 Study read_study(const std::string& file) {
   Node whole = parse_yaml(read_text_file(file, file), file);
   set_paths(whole, "study");
+  if (const Node* launcher = whole.find("launcher"))
+    throw InputError(launcher->origin, "a study names no launcher",
+                     "a launcher is a command, and a file may come from anybody",
+                     "call 'sprekk sweep " + file + " --launcher COMMAND'");
   StudyOptions options;
   options.spec().read(whole, {});
 
@@ -207,7 +211,6 @@ Study read_study(const std::string& file) {
   study.keys = varied_keys(options);
   study.runs = combined_runs(options);
   study.has_samples = options.samples.is_given;
-  for (const std::string& launcher : options.launchers) study.launchers.emplace_back(launcher, options.launcher_origin);
   for (const StudyOptions::NamedRun& run : options.runs) study.runs.push_back({run.name, run.settings, {}, ""});
   check_names_differ(study.runs);
   for (StudyRun& run : study.runs) run.settings.insert(run.settings.begin(), options.set.begin(), options.set.end());

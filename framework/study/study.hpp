@@ -17,7 +17,6 @@
 
 #include "framework/scene/scene.hpp"
 #include "framework/study/figure.hpp"
-#include "framework/study/launcher.hpp"
 #include "framework/study/samples.hpp"
 
 namespace sprekk {
@@ -59,8 +58,6 @@ struct StudyOptions {
   std::vector<Axis> grid;
   std::vector<Choice> choices;
   SampleOptions samples;
-  std::vector<std::string> launchers;
-  Origin launcher_origin;
   std::vector<NamedRun> runs;
   std::vector<std::string> plot;
   std::list<FigureOptions> table;
@@ -89,7 +86,6 @@ struct Study {
   Origin plot_origin;
   std::list<FigureOptions> table;
   std::optional<std::string> reference;  ///< the name of a run
-  std::vector<Launcher> launchers = {};
   bool has_samples = false;
 
   Scene scene_of(const StudyRun& run) const;

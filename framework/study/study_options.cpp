@@ -114,10 +114,6 @@ Spec StudyOptions::spec() {
   spec.section("samples", samples.spec(),
                {.doc = "Values drawn from distributions: so many runs for each combination of the others."},
                &samples.is_given);
-  spec.texts("launcher", launchers,
-             {.doc = "A command that starts runs, such as 'srun -n 1', or a template with {command} for all of it in "
-                     "one word: 'ssh node2 {command}'. Of several each starts its share; a run that one of them has "
-                     "lost is repeated by another."});
   spec.custom("runs",
               [this](const Node& node) {
                 if (!node.is_map() && !node.is_null())
@@ -132,7 +128,6 @@ Spec StudyOptions::spec() {
   spec.section("compare", compare_spec(*this), {.doc = "What of the runs is compared."});
   spec.check([this](const Node& node) {
     scene_origin = origin_of(node, "scene");
-    launcher_origin = origin_of(node, "launcher");
     if (grid.empty() && choices.empty() && runs.empty() && !samples.is_given)
       throw InputError(node.origin, "the study has no runs",
                        "'grid', 'choices', 'samples' and 'runs' say which there are",

@@ -14,8 +14,10 @@
 
 #include "framework/output/build_info.hpp"
 #include "framework/output/progress.hpp"
+#include "framework/plugin/plugin.hpp"
 #include "framework/study/child_process.hpp"
 #include "framework/study/comparison.hpp"
+#include "framework/study/launcher.hpp"
 #include "framework/study/run_state.hpp"
 
 namespace sprekk {
@@ -89,7 +91,6 @@ Sweep::Sweep(const Study& study, const SweepOptions& options)
       options_(options),
       folder_(options.folder.value_or(fs::path("results") / study.name)),
       comparison_(study),
-      launchers_(study.launchers),
       lost_by_(study.runs.size()) {
   for (const std::string& launcher : options.launchers) launchers_.emplace_back(launcher, Origin{"--launcher"});
   plan();
@@ -136,7 +137,8 @@ void Sweep::start(std::size_t i) {
   if (!goes_on) fs::remove_all(run_folder(i));
   arguments.insert(arguments.end(), {"-o", run_folder(i).string()});
   if (goes_on) arguments.emplace_back("--restart");
-  const std::map<std::string, std::string> environment = {{"OPENBLAS_NUM_THREADS", "1"}, {"OMP_NUM_THREADS", "1"}};
+  std::map<std::string, std::string> environment = plugin_environment();
+  environment.insert({{"OPENBLAS_NUM_THREADS", "1"}, {"OMP_NUM_THREADS", "1"}});
   if (launchers_.empty()) {
     working_.push_back({i, ChildProcess(options_.program, arguments, log(i), environment), 0});
     return;

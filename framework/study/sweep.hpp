@@ -19,7 +19,7 @@ struct SweepOptions {
   bool has_table = true;                    ///< prints the figures in the end, unless quiet
   bool tells_failures = true;               ///< also when quiet
   bool only_list = false;                   ///< only list what would be done
-  std::vector<std::string> launchers = {};  ///< commands that start runs, beside those of the study
+  std::vector<std::string> launchers = {};  ///< commands that start runs
   int repeats = 2;                          ///< of a run that a launcher has lost
   std::string program = "/proc/self/exe";   ///< the program with the command `run`
 };

@@ -39,16 +39,51 @@ def make(scratch, kind, name, package):
 
 
 def check_use(folder, plugin):
-    """By the scene, the option and the variable."""
+    """By the scene in a folder that is trusted, the option and the variable."""
     out = folder / "results"
-    expect(call(program, "run", str(folder / "scene.yaml"), "-q", "-o", str(out)), 0)
+    expect(call(program, "run", str(folder / "scene.yaml"), "-q", "-o", str(out), "--plugins", str(folder / "build")), 0)
     used = json.loads((out / "run.json").read_text(encoding="utf-8"))["program"]["plugins"]
     assert [(p["file"], p["types"]) for p in used] == [(str(plugin.resolve()), ["heat_flow/decay_of_heat"])], used
     expect(call(program, "list", "--plugin", str(plugin)), 0, "heat_flow/decay_of_heat")
     expect(call(program, "list", plugins=f"{plugin}:{plugin}"), 0, "heat_flow/decay_of_heat")
     expect(call(program, "schema", "--plugin", str(plugin)), 0, "heat_flow/decay_of_heat")
     expect(call("mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", program, "run", str(folder / "scene.yaml"), "-q", "-o",
-                str(folder / "two")), 0)
+                str(folder / "two"), "--plugins", str(folder)), 0)
+
+
+def check_trust(scratch, folder):
+    """A library that leaves a mark when it is opened, named by a scene of somebody else, is opened by no command."""
+    mark, stranger, safe = scratch / "mark", scratch / "stranger", scratch / "safe"
+    stranger.mkdir()
+    safe.mkdir()
+    (stranger / "bad.c").write_text(f'#include <stdio.h>\n__attribute__((constructor)) static void leave_mark(void) {{ FILE* f = fopen("{mark}", "w"); '
+                                    "if (f) fclose(f); }\n", encoding="utf-8")
+    expect(call(os.environ.get("CC", "cc"), "-shared", "-fPIC", "-o", str(stranger / "bad.so"), str(stranger / "bad.c")), 0)
+    (safe / "link.so").symlink_to(stranger / "bad.so")
+    text = (folder / "scene.yaml").read_text(encoding="utf-8")
+    scenes = {}
+    for name, value in {"beside": "bad.so", "link": str(safe / "link.so"), "up": f"{safe}/../stranger/bad.so", "list": "[bad.so]"}.items():
+        scenes[name] = stranger / f"{name}.yaml"
+        scenes[name].write_text("".join(line if not line.startswith("plugins:") else f"plugins: {value}\n" for line in text.splitlines(True)),
+                                encoding="utf-8")
+    study = stranger / "study.yaml"
+    study.write_text("scene: beside.yaml\nruns: {a: {}}\n", encoding="utf-8")
+    out = str(scratch / "not_written")
+    refusal = ("bad.so", "in no folder that you trust", "nothing of it was opened", "--plugins ")
+    for scene in scenes.values():
+        for command in (("check",), ("show",), ("graph",), ("fractures",), ("run", "-o", out)):
+            expect(call(program, *command, str(scene), "--plugins", str(safe)), 2, scene.name + ":", *(refusal if scene.name != "link.yaml" else refusal[1:]))
+    for command in (("sweep", str(study), "--list"), ("sweep", str(study), "-o", out), ("converge", str(scenes["beside"]), "--of", "u", "-o", out),
+                    ("schemes", str(scenes["beside"]), "-o", out)):
+        expect(call(program, *command), 2, *refusal)
+    assert not mark.exists() and not Path(out).exists()
+    # With the user's word it is opened; runs of a sweep are told.
+    expect(call(program, "check", str(scenes["beside"]), "--plugins", str(stranger)), 2, "no plug-in of Sprekk")
+    assert mark.exists()
+    expect(call(program, "check", str(scenes["beside"]), "--plugins", str(scratch / "nowhere")), 2, "--plugins", "there is no folder")
+    study.write_text(f"scene: {folder / 'scene.yaml'}\nruns: {{a: {{}}}}\n", encoding="utf-8")
+    expect(call(program, "sweep", str(study), "-q", "-o", str(scratch / "swept"), "--plugins", str(folder)), 0)
+    expect(call(program, "sweep", str(study), "-q", "-o", str(scratch / "launched"), "--plugins", str(folder), "--launcher", "sh -c {command}"), 0)
 
 
 def check_refusals(scratch, folder, plugin):
@@ -97,4 +132,5 @@ with tempfile.TemporaryDirectory() as name:
     program = str(scratch_folder / "prefix/bin/sprekk")
     component, library_file = make(scratch_folder, "component", "heat_flow/decay_of_heat", scratch_folder / "prefix/lib/cmake/sprekk")
     check_use(component, library_file)
+    check_trust(scratch_folder, component)
     check_refusals(scratch_folder, component, library_file)

@@ -83,7 +83,7 @@ class SweepPlaces(unittest.TestCase):
         counting.write_text(f'#!/bin/sh\necho 1 >> {shlex.quote(str(self.folder))}/count\nexec "$@"\n')
         counting.chmod(0o755)
         # Data without a value end a run with a reason.
-        self.sweep('runs: {bad: {time.step: 250 s, components.pore.source: "(1e-12*sqrt(abs(t - 500) - 100)) 1/s"}}\nlauncher: ' + str(counting) + "\n", code=1)
+        self.sweep('runs: {bad: {time.step: 250 s, components.pore.source: "(1e-12*sqrt(abs(t - 500) - 100)) 1/s"}}\n', "--launcher", str(counting), code=1)
         self.assertEqual((self.folder / "count").read_text().split(), ["1"])
         self.assertEqual(self.rows()[0]["state"], "failed")
 
@@ -158,12 +158,19 @@ class SweepPlaces(unittest.TestCase):
                              ("samples: {count: 4, of: {time.step: {mean: fast, deviation: 1 s}}}\n", ("is no number",)),
                              ("samples: {count: 4, of: {}}\n", ("nothing is drawn",)),
                              ("choices: {scheme: {a b: {time.step: 1 s}}}\n", ("an option cannot be called",)),
-                             ("choices: {scheme: {}}\n", ("has no options",)),
-                             ("runs: {a: {}}\nlauncher: \"\"\n", ("a launcher is empty",)),
-                             ("runs: {a: {}}\nlauncher: \"ssh 'a\"\n", ("does not end",))):
+                             ("choices: {scheme: {}}\n", ("has no options",))):
             answer = self.sweep(study, code=2)
             for word in words:
                 self.assertIn(word, answer.stderr, study)
+        for launcher, word in (("", "a launcher is empty"), ("ssh 'a", "does not end")):
+            self.assertIn(word, self.sweep("runs: {a: {}}\n", "--launcher", launcher, code=2).stderr)
+
+    def test_a_study_starts_no_command(self):
+        for words in ((), ("--list",)):
+            answer = self.sweep(f"runs: {{a: {{}}}}\nlauncher: touch {self.folder}/touched\n", *words, code=2)
+            for word in ("study.yaml:3:", "a study names no launcher", "--launcher"):
+                self.assertIn(word, answer.stderr)
+        self.assertFalse((self.folder / "touched").exists())
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ program, plugin = sys.argv[1:3]
 
 def pressure_and_passes(even):
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([program, "run", str(Path(__file__).parent / "scene.yaml"), "-q", "-o", folder, "--set", f"plugins={plugin}",
+        subprocess.run([program, "run", str(Path(__file__).parent / "scene.yaml"), "-q", "-o", folder, "--plugin", plugin, "--set", "plugins=null",
                         "--set", f"schedule.0.iterate.accelerate.__type__.even={even}"], check=True)
         with open(Path(folder) / "history.csv", encoding="utf-8") as file:
             row = list(csv.DictReader(file))[-1]

@@ -14,7 +14,7 @@ program, plugin = sys.argv[1:3]
 def error(step):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([program, "run", str(Path(__file__).parent / "scene.yaml"), "-q", "-o", folder,
-                        "--set", f"plugins={plugin}", "--set", f"time.step={step} s"], check=True)
+                        "--plugin", plugin, "--set", "plugins=null", "--set", f"time.step={step} s"], check=True)
         with open(Path(folder) / "history.csv", encoding="utf-8") as file:
             last = list(csv.DictReader(file))[-1]
     lost = float(last["fluid_balance_error[m^2]"])

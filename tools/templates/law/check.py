@@ -13,7 +13,7 @@ program, plugin = sys.argv[1:3]
 def pressure(mismatch):
     """Pa, in the middle of the fracture, for walls with this mismatch (m)."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([program, "run", str(Path(__file__).parent / "scene.yaml"), "-q", "-o", folder, "--set", f"plugins={plugin}",
+        subprocess.run([program, "run", str(Path(__file__).parent / "scene.yaml"), "-q", "-o", folder, "--plugin", plugin, "--set", "plugins=null",
                         "--set", f"components.conduit.law.__type__.mismatch={mismatch} m"], check=True)
         with open(Path(folder) / "history.csv", encoding="utf-8") as file:
             return float(list(csv.DictReader(file))[-1]["p[Pa]"])
