@@ -22,8 +22,8 @@ class Ended:
     seconds: float
 
 
-def run(program, scene, folder, limit, processes=1):
-    command = [str(program), "run", str(scene), "-o", str(folder)]
+def run(program, scene, folder, limit, processes=1, more=()):
+    command = [str(program), "run", str(scene), "-o", str(folder), *more]
     if processes > 1:
         command = ["mpirun", "-n", str(processes), *command]
     environment = {**os.environ, **OF_MPI, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
