@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "framework/field/output_field.hpp"
@@ -33,6 +34,8 @@ class FrameOutput {
   virtual ~FrameOutput() = default;
   /// Throws std::runtime_error when a file cannot be written.
   virtual void write(const Frame& frame) = 0;
+  /// What to tell the user of files that were removed meanwhile (TableWriter::loss); empty if none was.
+  virtual std::string loss() const { return ""; }
 };
 
 }  // namespace sprekk

@@ -77,6 +77,7 @@ class LineTable {
       table_.append(frame.time, row);
     }
   }
+  std::string loss() const { return table_.loss(); }
 
  private:
   static TableWriter open(const std::filesystem::path& file, const OutputPlace& place) {
@@ -94,6 +95,11 @@ class Lines : public FrameOutput {
   }
   void write(const Frame& frame) override {
     for (LineTable& table : tables_) table.write(frame);
+  }
+  std::string loss() const override {
+    for (const LineTable& table : tables_)
+      if (const std::string loss = table.loss(); !loss.empty()) return loss;
+    return "";
   }
 
  private:

@@ -1,18 +1,23 @@
 #include "framework/output/atomic_file.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
+
+#include "framework/output/plain_file.hpp"
 
 namespace sprekk {
 namespace fs = std::filesystem;
 
+namespace {
+const char* const ending = ".partial";
+}
+
 fs::path partial_name(const fs::path& file) {
   fs::path partial = file;
-  partial += ".partial";
+  partial += ending;
   return partial;
 }
+
+bool is_partial(const fs::path& file) { return file.extension() == ending; }
 
 void finish_partial(const fs::path& file) {
   std::error_code error;
@@ -21,16 +26,15 @@ void finish_partial(const fs::path& file) {
 }
 
 void write_atomically(const fs::path& file, std::string_view text) {
-  errno = 0;
-  std::ofstream stream(partial_name(file), std::ios::binary | std::ios::trunc);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (!stream) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "the write failed";
+  try {
+    PlainFile partial(partial_name(file), PlainFile::Mode::anew);
+    partial.write(text);
+    partial.close();
+  } catch (const std::runtime_error& error) {
     std::error_code ignored;
     fs::remove(partial_name(file), ignored);
-    throw std::runtime_error("cannot write " + file.string() + " (" + reason + ") make room for it; what it held " +
-                             "before is still there");
+    throw std::runtime_error("cannot write " + file.string() + " (" + error.what() + ") make room for it; what it " +
+                             "held before is still there");
   }
   finish_partial(file);
 }

@@ -9,6 +9,9 @@ namespace sprekk {
 /// The name under which a file is written before it replaces `file`: the same folder, ".partial" behind the name.
 std::filesystem::path partial_name(const std::filesystem::path& file);
 
+/// Whether a file has such a name.
+bool is_partial(const std::filesystem::path& file);
+
 /// Moves the finished partial_name(file) to `file`. Throws std::runtime_error naming the file and the reason.
 void finish_partial(const std::filesystem::path& file);
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "framework/output/atomic_file.hpp"
 
@@ -35,6 +36,9 @@ void require(herr_t status, const std::string& what) {
 /// Switches off HDF5's own messages on the terminal; errors are reported by exceptions.
 void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
+/// Without the time at which an object was made, the same values give the same bytes.
+void leave_time_out(hid_t creation) { require(H5Pset_obj_track_times(creation, false), "out of memory"); }
+
 constexpr std::size_t memory_step = std::size_t{1} << 22;  // bytes by which a file in memory grows
 constexpr hsize_t largest_chunk = hsize_t{1} << 20;        // values; the chunks carry the checksums
 
@@ -60,13 +64,16 @@ struct Hdf5Writer::Image {
     return end <= size ? end : 0;
   }
 
-  static void* make(std::size_t size, H5FD_file_image_op_t, void*) { return std::malloc(size); }
+  // Zeros, since HDF5 leaves gaps.
+  static void* make(std::size_t size, H5FD_file_image_op_t, void*) { return std::calloc(size, 1); }
   static void* copy(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
     return std::memcpy(to, from, size);
   }
   static void* resize(void* bytes, std::size_t size, H5FD_file_image_op_t, void* image) {
-    static_cast<Image*>(image)->size = size;
-    return std::realloc(bytes, size);
+    const std::size_t former = std::exchange(static_cast<Image*>(image)->size, size);
+    void* const larger = std::realloc(bytes, size);
+    if (larger && size > former) std::memset(static_cast<char*>(larger) + former, 0, size - former);
+    return larger;
   }
   static herr_t release(void* bytes, H5FD_file_image_op_t reason, void* image) {
     if (reason == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
@@ -89,7 +96,9 @@ Hdf5Writer::Hdf5Writer(std::filesystem::path file) : path_(std::move(file)), ima
   require(H5Pset_fapl_core(access, memory_step, 0), "out of memory");
   H5FD_file_image_callbacks_t callbacks = image_->callbacks();
   require(H5Pset_file_image_callbacks(access, &callbacks), "out of memory");
-  file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "out of memory");
+  leave_time_out(creation);
+  file_ = H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, access);
   if (file_ < 0) throw Hdf5Error("the file cannot be made");
 }
 
@@ -109,11 +118,21 @@ std::string_view Hdf5Writer::finish() {
 
 void Hdf5Writer::close() { write_atomically(path_, finish()); }
 
+void Hdf5Writer::make_groups_of(const std::string& path) {
+  for (std::size_t end = path.find('/'); end != std::string::npos; end = path.find('/', end + 1)) {
+    const std::string group = path.substr(0, end), failed = "group " + group + " cannot be made";
+    if (!groups_.insert(group).second) continue;
+    const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, failed);
+    leave_time_out(creation);
+    const Handle made(H5Gcreate2(file_, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose, failed);
+  }
+}
+
 void Hdf5Writer::write(const std::string& path, std::int64_t type, std::size_t count, const void* values) {
   const std::string failed = "array " + path + " cannot be written";
-  const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose, failed);
+  make_groups_of(path);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, failed);
-  require(H5Pset_create_intermediate_group(link, 1), failed);
+  leave_time_out(creation);
   const hsize_t size = count;
   if (size > 0) {
     const hsize_t chunk = std::min(size, largest_chunk);
@@ -121,7 +140,8 @@ void Hdf5Writer::write(const std::string& path, std::int64_t type, std::size_t c
     require(H5Pset_fletcher32(creation), failed);
   }
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, failed);
-  const Handle array(H5Dcreate2(file_, path.c_str(), type, space, link, creation, H5P_DEFAULT), H5Dclose, failed);
+  const Handle array(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
+                     failed);
   if (size > 0) require(H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), failed);
 }
 

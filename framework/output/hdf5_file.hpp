@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -18,7 +19,7 @@ struct Hdf5Error : std::runtime_error {
 };
 
 /// Writes named arrays. Names are paths "group/array"; groups are made as needed. Nothing is written to the disk before
-/// `close`. Throws Hdf5Error.
+/// `close`. The same arrays give the same bytes. Throws Hdf5Error.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::filesystem::path file);
@@ -35,11 +36,13 @@ class Hdf5Writer {
 
  private:
   void write(const std::string& path, std::int64_t type, std::size_t count, const void* values);
+  void make_groups_of(const std::string& path);
   struct Image;
   std::string_view finish();  ///< the bytes of the file
   std::filesystem::path path_;
   std::unique_ptr<Image> image_;
   std::int64_t file_;
+  std::set<std::string> groups_;  ///< that have been made
 };
 
 /// Reads the arrays of a file that Hdf5Writer has written, and compares their checksums. Throws Hdf5Error.

@@ -7,6 +7,8 @@
 #include <cctype>
 
 #include "framework/config/input_error.hpp"
+#include "framework/output/atomic_file.hpp"
+#include "framework/output/run_lock.hpp"
 
 namespace sprekk {
 namespace fs = std::filesystem;
@@ -76,13 +78,22 @@ OutputFolder OutputFolder::given(const fs::path& path, Purpose purpose) {
   if (exists) {
     if (!fs::is_directory(path, error))
       throw InputError("the output folder " + path.string() + " is a file (results need a folder) choose another name");
-    if (purpose == Purpose::new_run && !fs::is_empty(path, error))
+    if (purpose == Purpose::new_run && holds_results(path))
       throw InputError("the output folder " + path.string() +
-                       " is not empty (results are never overwritten) choose another one with -o, empty it, or "
-                       "continue the run that it holds with --restart");
+                       " is not empty (results are never overwritten) choose another one with -o, " +
+                       (fs::is_regular_file(path / "checkpoint.h5", error)
+                            ? "empty it, or continue the run that it holds with --restart"
+                            : "or empty it"));
     require_writable(path);
   }
   return OutputFolder(path, Choice::fixed);
+}
+
+bool OutputFolder::holds_results(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().filename() != RunLock::file_name && !is_partial(entry.path())) return true;
+  return bool(error);  // what cannot be looked at counts as used
 }
 
 const fs::path& OutputFolder::create() {

@@ -25,8 +25,12 @@ class OutputFolder {
                                             const std::filesystem::path& parent = "results");
 
   /// The folder that the user asks for (-o), or that holds the checkpoint of a restart. Throws InputError if it is not
-  /// a folder, or not writable, or not empty while a new run is to be written into it.
+  /// a folder, or not writable, or holds results (holds_results) while a new run is to be written into it.
   static OutputFolder given(const std::filesystem::path& path, Purpose purpose = Purpose::new_run);
+
+  /// Whether there is more in the folder than a run leaves that was killed before its first checkpoint: a lock, and
+  /// files that are not complete.
+  static bool holds_results(const std::filesystem::path& folder);
 
   /// Makes the folder with its parents; further calls do nothing. Throws InputError when it cannot be made.
   const std::filesystem::path& create();

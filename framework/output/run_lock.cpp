@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "framework/config/input_error.hpp"
+#include "framework/output/plain_file.hpp"
 
 namespace sprekk {
 namespace {
@@ -29,14 +29,6 @@ std::string own_name() {
   return "process " + std::to_string(::getpid()) + " on " + host + "\n";
 }
 
-/// Whether the open file still has its name: the former holder of the lock may have removed it meanwhile.
-bool is_still_there(int descriptor, const std::filesystem::path& file) {
-  struct stat open_one {
-  }, named{};
-  return ::fstat(descriptor, &open_one) == 0 && ::stat(file.c_str(), &named) == 0 && open_one.st_ino == named.st_ino &&
-         open_one.st_dev == named.st_dev;
-}
-
 }  // namespace
 
 RunLock::RunLock(const std::filesystem::path& folder) : file_(folder / file_name) {
@@ -53,7 +45,7 @@ RunLock::RunLock(const std::filesystem::path& folder) : file_(folder / file_name
       throw InputError("another run is at work in " + folder.string() + " (" + name +
                        ") wait for it or end it, or choose another folder with -o");
     }
-    if (is_still_there(descriptor_, file_)) break;
+    if (has_name(descriptor_, file_)) break;  // its former holder may have removed it meanwhile
     ::close(descriptor_);
     descriptor_ = -1;
   }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "framework/config/input_error.hpp"
 #include "framework/output/atomic_file.hpp"
@@ -54,6 +56,10 @@ std::vector<std::string> split_row(const std::string& line) {
 
 TableWriter TableWriter::continued(std::filesystem::path file, double time, std::optional<long> rows) {
   TableWriter table(std::move(file));
+  std::error_code error;
+  if (std::filesystem::is_symlink(table.file_, error))
+    throw InputError("cannot continue " + table.file_.string() + " (it is a symbolic link, which may lead out of the " +
+                     "folder) put the table itself there");
   std::ifstream old(table.file_, std::ios::binary);
   if (!old) {
     if (!rows || *rows == 0) return table;
@@ -72,7 +78,7 @@ TableWriter TableWriter::continued(std::filesystem::path file, double time, std:
       table.columns_ = split_row(line);
       if (table.columns_.front() != time_column)
         throw InputError("cannot continue " + table.file_.string() + " (its first column is not " + time_column +
-                         ") move it away and restart again");
+                         ") put the table of the run back, or start the scene anew with -o");
       table.columns_.erase(table.columns_.begin());
     } else {
       if (rows ? table.rows_ >= *rows : std::strtod(line.c_str(), nullptr) > time) continue;
@@ -97,21 +103,33 @@ std::vector<std::string> TableWriter::columns_of(const std::filesystem::path& fi
   return columns;
 }
 
-void TableWriter::open() {
-  stream_.open(file_, std::ios::binary | std::ios::app);
-  if (!stream_) throw std::runtime_error("cannot write " + file_.string());
+std::string TableWriter::header() const {
+  std::string header = time_column;
+  for (const std::string& column : columns_) header += ',' + csv_text(column);
+  return header + '\n';
+}
+
+void TableWriter::look_for_file() {
+  if (!open_file_ || open_file_->has_name(file_)) return;
+  std::error_code error;
+  if (std::filesystem::symlink_status(file_, error).type() != std::filesystem::file_type::not_found)
+    throw std::runtime_error("another file has taken its place, and nothing is overwritten");
+  open_file_.reset();
+  lost_rows_ += std::exchange(rows_, 0);
+}
+
+std::string TableWriter::loss() const {
+  if (lost_rows_ == 0) return "";
+  const std::string name = file_.filename().string();
+  return fmt::format(
+      "{} was removed while the run wrote it, with {} rows (a new one has begun) copy what is needed "
+      "elsewhere, and leave it where it is until the run has ended",
+      name, lost_rows_);
 }
 
 void TableWriter::append(double time, const Row& row) {
-  if (!stream_.is_open()) open();
-  if (columns_.empty()) {
-    std::string header = time_column;
-    for (const auto& [column, value] : row) {
-      columns_.push_back(column);
-      header += ',' + csv_text(column);
-    }
-    stream_ << header << '\n';
-  }
+  if (columns_.empty())
+    for (const auto& [column, value] : row) columns_.push_back(column);
   std::vector<std::string> cells(columns_.size());
   for (std::size_t i = 0; i < row.size(); ++i) {
     const auto& [column, value] = row[i];
@@ -122,10 +140,18 @@ void TableWriter::append(double time, const Row& row) {
     if (found == columns_.end()) throw std::logic_error(file_.string() + " has no column " + column);
     cells[found - columns_.begin()] = csv_value(value);
   }
-  stream_ << fmt::format("{}", time);
-  for (const std::string& cell : cells) stream_ << ',' << cell;
-  stream_ << '\n' << std::flush;
-  if (!stream_) throw std::runtime_error("cannot write " + file_.string() + " (is the disk full?)");
+  std::string text = fmt::format("{}", time);
+  for (const std::string& cell : cells) text += ',' + cell;
+  text += '\n';
+  try {
+    look_for_file();
+    // Without a row, a file holds no more than one that was cut short.
+    const bool is_new = rows_ == 0 && !open_file_;
+    if (!open_file_) open_file_.emplace(file_, is_new ? PlainFile::Mode::anew : PlainFile::Mode::append);
+    open_file_->write(is_new ? header() + text : text);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error("cannot write " + file_.string() + " (" + error.what() + ")");
+  }
   ++rows_;
 }
 

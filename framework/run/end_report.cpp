@@ -24,8 +24,8 @@ void report_last_checkpoint(const RunOutput& output) {
   if (!parallel::is_root()) return;
   std::error_code error;
   if (std::filesystem::exists(output.checkpoint_path(), error))
-    std::cerr << "the run can go on from its last checkpoint, " << output.checkpoint_path().string()
-              << ", with --restart\n";
+    std::cerr << "once that is mended, the run can go on from its last checkpoint, "
+              << output.checkpoint_path().string() << ", with --restart\n";
 }
 
 }  // namespace sprekk

@@ -41,11 +41,10 @@ std::optional<long> coupling_rows(const std::optional<RunOutput::Rows>& rows) {
   return rows ? std::optional(rows->coupling) : std::nullopt;
 }
 
-void require_empty(const std::filesystem::path& folder) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().filename() != RunLock::file_name)
-      throw InputError("the output folder " + folder.string() +
-                       " is not empty any more (another run was faster) choose another one with -o");
+void require_unused(const std::filesystem::path& folder) {
+  if (OutputFolder::holds_results(folder))
+    throw InputError("the output folder " + folder.string() +
+                     " is not empty any more (another run was faster) choose another one with -o");
 }
 
 }  // namespace
@@ -73,11 +72,13 @@ void RunOutput::start_writing(const std::optional<Continued>& from, const std::v
     history_ = TableWriter::continued(folder / "history.csv", from->time, history_rows(from->rows));
     coupling_ = TableWriter::continued(folder / "coupling.csv", from->time, coupling_rows(from->rows));
   } else {
-    require_empty(folder);
+    require_unused(folder);
     history_.emplace(folder / "history.csv");
     coupling_.emplace(folder / "coupling.csv");
   }
-  const OutputPlace place{folder, from ? std::optional(from->time) : std::nullopt};
+  // Before its first step a run has written no more than the start, which it writes again.
+  const bool goes_on = from && (!from->rows || from->rows->history > 0);
+  const OutputPlace place{folder, goes_on ? std::optional(from->time) : std::nullopt};
   for (const FrameOutputChoice& output : outputs) outputs_.push_back(output.build(place));
 }
 
@@ -86,6 +87,15 @@ void RunOutput::write_history(const StepTime& step, int iterations, const std::v
   TableWriter::Row row{{"step[s]", step.dt}, {"iterations[1]", static_cast<double>(iterations)}};
   for (const Quantity& quantity : quantities) row.emplace_back(labelled(quantity.name, quantity.unit), quantity.value);
   history_->append(step.end, row);
+}
+
+void RunOutput::note_losses(Notes& notes) const {
+  const auto note = [&](const std::string& loss) {
+    if (!loss.empty()) notes.add(loss.substr(0, loss.find(',')), loss);
+  };
+  for (const std::optional<TableWriter>* table : {&history_, &coupling_})
+    if (*table) note((*table)->loss());
+  for (const auto& output : outputs_) note(output->loss());
 }
 
 void RunOutput::write_iteration(const IterationRecord& record, const std::vector<std::string>& equations) {

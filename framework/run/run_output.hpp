@@ -39,6 +39,8 @@ class RunOutput {
   /// locked the folder, or when a table is missing. Collective.
   void open(const std::optional<Continued>& from, const std::vector<FrameOutputChoice>& outputs);
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
+  /// Tells which tables somebody has removed; the run goes on with new ones.
+  void note_losses(Notes& notes) const;
   /// `equations`: the names of all that have a column.
   void write_iteration(const IterationRecord& record, const std::vector<std::string>& equations);
   /// Writes the state by all outputs.

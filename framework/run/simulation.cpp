@@ -71,7 +71,7 @@ class Simulation {
  private:
   IterationLog log();
   void write_start();
-  ExitCode step_to_the_end(const InterruptGuard& interrupt);
+  ExitCode step_to_the_end(const InterruptGuard& interrupt, Checkpoints& checkpoints);
   void accept(const StepTime& step, const StepStatus& status);
   bool follow_growth();  ///< false when the mesh could not
   void finish(ExitCode code);
@@ -130,10 +130,10 @@ IterationLog Simulation::log() {
   };
 }
 
-/// Writes the outputs at the start of a new run.
+/// Writes the outputs at the start of a run, also where it was killed before its first step had ended.
 void Simulation::write_start() {
   Model& model = *state_.model;
-  if (continued_ || !writes_frames_) return;
+  if (state_.controller.steps() > 0 || !writes_frames_) return;
   try {
     model.prepare(state_.controller.next());  // what the first step does first, and does not repeat
   } catch (const DataError&) {
@@ -143,9 +143,8 @@ void Simulation::write_start() {
   output_.write_frame(state_.controller.time(), 0, model, model.output());
 }
 
-ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt) {
+ExitCode Simulation::step_to_the_end(const InterruptGuard& interrupt, Checkpoints& checkpoints) {
   const StepController& controller = state_.controller;
-  Checkpoints checkpoints(state_, output_, scene_fingerprint(state_.model->scene()));
   while (!controller.is_finished() && !early_end_.is_reached()) {
     checkpoints.step_begins();
     const StepAttempts::Outcome outcome = attempts_.run();
@@ -203,6 +202,7 @@ void Simulation::accept(const StepTime& step, const StepStatus& status) {
   recorder_.note_splitting_errors(splitting_error.of_fields());
   const ScopedTimer timer(profile_, "output");
   output_.write_history(step, status.iterations, quantities);
+  output_.note_losses(state_.notes);
   if (writes_frame) output_.write_frame(step.end, state_.controller.steps(), model, fields);
 }
 
@@ -243,12 +243,14 @@ ExitCode Simulation::run() {
   const std::vector<FrameOutputChoice> outputs = state_.model->scene().output.chosen_outputs();
   writes_frames_ = !outputs.empty();
   output_.open(continued_, outputs);
+  Checkpoints checkpoints(state_, output_, scene_fingerprint(state_.model->scene()));
+  if (!continued_) checkpoints.write();  // before anything else, so that a run that is killed can always go on
   output_.write_record(recorder_.record(), profile_);
   for (const NoteRecord& note : recorder_.record().notes) progress_.event("note: " + described(note));
   ExitCode code = ExitCode::failed;
   try {
     write_start();
-    code = step_to_the_end(interrupt);
+    code = step_to_the_end(interrupt, checkpoints);
   } catch (const std::exception& error) {
     progress_.close();
     fail(error.what());

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "framework/output/output_folder.hpp"
 #include "framework/run/exit_code.hpp"
 
 namespace sprekk {
@@ -38,7 +39,7 @@ std::string last_line(const fs::path& log) {
   return last.rfind("error: ", 0) == 0 ? last.substr(7) : last;
 }
 
-bool is_free(const fs::path& folder) { return !fs::exists(folder) || fs::is_empty(folder); }
+bool is_free(const fs::path& folder) { return !fs::exists(folder) || !OutputFolder::holds_results(folder); }
 
 }  // namespace
 

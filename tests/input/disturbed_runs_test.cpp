@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <tuple>
 
 #include "tests/input/program.hpp"
 
@@ -72,12 +73,16 @@ TEST(FullDisk, EndsARunWithAMessageAndKeepsTheCheckpoint) {
 }
 
 TEST(FullDisk, EndsARunWhicheverWriterMeetsItFirst) {
-  // In blocks of 512 or 1024 bytes: the record, a table, fields.
-  for (const auto& [blocks, file] : {std::pair(2, "u/"), {26, "u/"}, {40, "u/matrix_"}}) {
+  // In blocks of 512 or 1024 bytes: the checkpoint at the start; of a run that goes on the record, a table, fields.
+  for (const auto& [blocks, file, goes_on] :
+       {std::tuple(2, "u/checkpoint.h5", false), {2, "u/", true}, {26, "u/", true}, {40, "u/matrix_", true}}) {
     const Folder folder;
-    const Outcome full = shell_command("ulimit -f " + std::to_string(blocks) + "; exec " +
-                                           tutorial_line("-q -o u --set output.fields=true --set 'time.step=1 h'"),
-                                       folder.path());
+    const std::string run = tutorial_line("-q -o u --set output.fields=true --set 'time.step=1 h'");
+    if (goes_on) {
+      ASSERT_EQ(shell_command(run + " --set 'time.end=2 h'", folder.path()).code, 0);
+    }
+    const Outcome full = shell_command(
+        "ulimit -f " + std::to_string(blocks) + "; exec " + run + (goes_on ? " --restart" : ""), folder.path());
     EXPECT_EQ(full.code, 1) << blocks << ": " << full.err;
     EXPECT_THAT(full.err, HasSubstr(std::string("cannot write ") + file)) << blocks;
   }
@@ -121,6 +126,82 @@ TEST(RunFolder, OfADeadRunIsTakenOver) {
   EXPECT_EQ(sprekk_command(tutorial({"-q", "-o", "whole", "--set", "time.step=20 min"}), folder.path()).code, 0);
   for (const std::string table : {"/history.csv", "/coupling.csv"})
     EXPECT_EQ(text_of(folder / ("u" + table)), text_of(folder / ("whole" + table)));
+}
+
+TEST(RunFolder, OfARunThatWasKilledInItsFirstStepGoesOn) {
+  const Folder folder;
+  const std::vector<std::string> outputs = {
+      "--set", "output.lines={l: {of: pore.pressure, from: [1 m, 1 m], to: [2 m, 2 m], points: 3}}"};
+  const auto run = [&](std::vector<std::string> more) {
+    more.insert(more.end(), outputs.begin(), outputs.end());
+    return tutorial(more, "0.6 m, 0.2 m");
+  };
+  Program dead(run({"-q", "-o", "u"}), folder.path());
+  wait_until(dead, [&] { return fs::exists(folder / "u/checkpoint.h5"); });
+  dead.signal(SIGKILL);
+  EXPECT_EQ(dead.wait().code, -SIGKILL);
+  EXPECT_EQ(rows(folder / "u/history.csv"), 0) << "within the first step";
+  const Outcome anew = sprekk_command(run({"-q", "-o", "u"}), folder.path());
+  EXPECT_EQ(anew.code, 2);
+  EXPECT_THAT(anew.err, HasSubstr("continue the run that it holds with --restart"));
+  const Outcome rest = sprekk_command(run({"-q", "-o", "u", "--restart"}), folder.path());
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_EQ(sprekk_command(run({"-q", "-o", "whole"}), folder.path()).code, 0);
+  for (const std::string file : {"/history.csv", "/coupling.csv", "/line_l.csv", "/matrix.pvd", "/checkpoint.h5"})
+    EXPECT_TRUE(text_of(folder / ("u" + file)) == text_of(folder / ("whole" + file))) << file;
+}
+
+TEST(RunFolder, OfARunThatWasKilledBeforeThatIsStartedAgain) {
+  const Folder folder;
+  fs::create_directory(folder / "u");
+  for (const std::string name : {".lock", "checkpoint.h5.partial"}) std::ofstream(folder / ("u/" + name)) << "cut sho";
+  const Outcome outcome = sprekk_command(tutorial({"-q", "-o", "u", "--set", "time.end=12 h"}), folder.path());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_FALSE(fs::exists(folder / "u/checkpoint.h5.partial"));
+}
+
+TEST(RunFolder, LetsNoLinkLeadOutOfIt) {
+  const Folder folder;
+  ASSERT_EQ(sprekk_command(tutorial({"-q", "-o", "first", "--set", "time.end=1 day"}), folder.path()).code, 0);
+  for (const std::string name : {"history.csv", "coupling.csv", "checkpoint.h5.partial", "run.json.partial"}) {
+    const std::string outside = "outside " + name;
+    fs::copy(folder / "first", folder / "u");
+    if (fs::exists(folder / ("u/" + name)))
+      fs::rename(folder / ("u/" + name), folder / outside);
+    else
+      std::ofstream(folder / outside) << "of somebody else";
+    const std::string before = text_of(folder / outside);
+    fs::create_symlink(folder / outside, folder / ("u/" + name));
+    const Outcome outcome = sprekk_command(tutorial({"-q", "-o", "u", "--restart"}), folder.path());
+    const bool is_partial = name.ends_with(".partial");  // left by a run that was killed, and made anew
+    EXPECT_EQ(outcome.code, is_partial ? 0 : 2) << name << ": " << outcome.err;
+    if (!is_partial) {
+      EXPECT_THAT(outcome.err, HasSubstr("cannot continue u/" + name + " (it is a symbolic link"));
+    }
+    EXPECT_EQ(text_of(folder / outside), before) << name;
+    fs::remove_all(folder / "u");
+  }
+}
+
+TEST(RunFolder, ARemovedTableIsToldAndBeginsAnew) {
+  const Folder folder;
+  const std::vector<std::string> more = {"--set", "time.step=20 min", "--set",
+                                         "output={checkpoint_every: 1 ms, fields: false}"};
+  std::vector<std::string> arguments = {"-q", "-o", "u"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  Program program(tutorial(arguments), folder.path());
+  wait_until(program, [&] { return rows(folder / "u/history.csv") > 5; });
+  fs::remove(folder / "u/history.csv");
+  wait_until(program, [&] { return rows(folder / "u/history.csv") > 5; });
+  ASSERT_TRUE(program.is_running());
+  program.signal(SIGKILL);
+  EXPECT_EQ(program.wait().code, -SIGKILL);
+  arguments.emplace_back("--restart");
+  const Outcome rest = sprekk_command(tutorial(arguments), folder.path());
+  EXPECT_EQ(rest.code, 0) << rest.err;
+  EXPECT_THAT(rest.err, HasSubstr("history.csv was removed while the run wrote it"));
+  EXPECT_LT(rows(folder / "u/history.csv"), 144);
+  EXPECT_THAT(text_of(folder / "u/history.csv"), ::testing::StartsWith("time[s],"));
 }
 
 TEST(RunFolder, ThatCannotBeIsRefusedAtOnce) {

@@ -1,5 +1,9 @@
 #include "framework/output/atomic_file.hpp"
 
+#include <sys/resource.h>
+
+#include <csignal>
+
 #include "tests/framework/output/small_case.hpp"
 
 namespace sprekk {
@@ -28,12 +32,53 @@ TEST_F(AtomicFile, AFailedWriteNamesTheFileAndKeepsTheOldContent) {
   EXPECT_EQ(read_text(file), "old");
 }
 
+/// No file may grow, as on a full disk.
+class FullDisk {
+ public:
+  FullDisk() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &none);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
 TEST_F(AtomicFile, AFullDiskIsNoticed) {
-  // Every write to /dev/full fails as on a full disk.
   const auto file = folder / "a.txt";
-  std::filesystem::create_symlink("/dev/full", partial_name(file));
-  EXPECT_THROW(write_atomically(file, "text"), std::runtime_error);
-  EXPECT_FALSE(std::filesystem::exists(file));
+  write_atomically(file, "old");
+  {
+    const FullDisk full;
+    EXPECT_THROW(write_atomically(file, "text"), std::runtime_error);
+  }
+  EXPECT_EQ(read_text(file), "old");
+  EXPECT_FALSE(std::filesystem::exists(partial_name(file)));
+}
+
+TEST_F(AtomicFile, FollowsNoLinkOutOfItsFolder) {
+  const auto outside = folder / "outside", results = folder / "results";
+  std::filesystem::create_directory(results);
+  for (const bool is_there : {true, false}) {
+    if (is_there) write_text(outside, "of somebody else");
+    for (const auto& name : {results / "a.txt", partial_name(results / "a.txt")}) {
+      std::filesystem::remove(results / "a.txt");
+      std::filesystem::create_symlink(outside, name);
+      write_atomically(results / "a.txt", "mine");
+      EXPECT_EQ(read_text(results / "a.txt"), "mine");
+      EXPECT_FALSE(std::filesystem::is_symlink(results / "a.txt"));
+      EXPECT_EQ(std::filesystem::exists(outside), is_there) << name;
+      if (is_there) {
+        EXPECT_EQ(read_text(outside), "of somebody else") << name;
+      }
+    }
+    std::filesystem::remove(outside);
+  }
 }
 
 }  // namespace

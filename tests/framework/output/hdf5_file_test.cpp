@@ -1,8 +1,10 @@
 #include "framework/output/hdf5_file.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include "tests/framework/output/small_case.hpp"
 
@@ -39,6 +41,20 @@ TEST_F(Hdf5File, ArraysComeBackToTheBit) {
   EXPECT_EQ(reader.text("no text"), "");
   EXPECT_TRUE(reader.has("text"));
   EXPECT_FALSE(reader.has("missing"));
+}
+
+TEST_F(Hdf5File, TheSameArraysGiveTheSameBytesAtAnyTime) {
+  const auto bytes = [&] {
+    Hdf5Writer writer(file);
+    writer.text("a/b/text", "some");
+    writer.doubles("a/doubles", std::vector<double>(300'000, 0.1));
+    writer.integers("c/integers", std::vector<int>{1, 2});
+    writer.close();
+    return read_text(file);
+  };
+  const std::string first = bytes();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5 would count seconds
+  EXPECT_TRUE(bytes() == first);
 }
 
 TEST_F(Hdf5File, WhatIsMissingOrOfAnotherKindIsAnError) {

@@ -57,10 +57,22 @@ TEST_F(OutputFolderTest, ANameCannotLeaveTheResults) {
 
 TEST_F(OutputFolderTest, AGivenFolderWithContentIsRefused) {
   const auto path = used("a");
-  const std::string message = input_error_of([&] { OutputFolder::given(path); });
-  EXPECT_NE(message.find(path.string() + " is not empty"), std::string::npos) << message;
-  EXPECT_NE(message.find("-o"), std::string::npos) << message;
-  EXPECT_NE(message.find("--restart"), std::string::npos) << message;
+  const auto message = [&] { return input_error_of([&] { OutputFolder::given(path); }); };
+  EXPECT_NE(message().find(path.string() + " is not empty"), std::string::npos) << message();
+  EXPECT_NE(message().find("-o"), std::string::npos) << message();
+  EXPECT_EQ(message().find("--restart"), std::string::npos) << "there is nothing to go on from: " << message();
+  write_text(path / "checkpoint.h5", "");
+  EXPECT_NE(message().find("--restart"), std::string::npos) << message();
+}
+
+TEST_F(OutputFolderTest, WhatARunLeavesThatWasKilledAtOnceIsNoResult) {
+  const auto path = folder / "a";
+  std::filesystem::create_directory(path);
+  for (const char* const name : {".lock", "checkpoint.h5.partial"}) write_text(path / name, "");
+  EXPECT_FALSE(OutputFolder::holds_results(path));
+  EXPECT_EQ(OutputFolder::given(path).create(), path);
+  write_text(path / "run.json", "");
+  EXPECT_TRUE(OutputFolder::holds_results(path));
 }
 
 TEST_F(OutputFolderTest, ARestartContinuesInAFolderWithContent) {

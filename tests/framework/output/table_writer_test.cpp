@@ -112,6 +112,43 @@ TEST_F(TableWriterTest, AnotherKindOfFileIsRefused) {
   EXPECT_EQ(read_text(file), "a,b\n1,2\n");
 }
 
+TEST_F(TableWriterTest, FollowsNoLink) {
+  const auto outside = folder / "outside.csv";
+  const std::string text = "time[s],x[m]\n1,1\n";
+  write_text(outside, text);
+  std::filesystem::create_symlink(outside, file);
+  EXPECT_THAT(input_error_of([&] { TableWriter::continued(file, 1, 1); }), testing::HasSubstr("symbolic link"));
+  EXPECT_EQ(read_text(outside), text);
+  std::filesystem::remove(file);
+  write_text(file, text);
+  TableWriter table = TableWriter::continued(file, 1, 1);
+  std::filesystem::remove(file);
+  std::filesystem::create_symlink(outside, file);  // between the restart and its first row
+  EXPECT_THROW(table.append(2, {{"x[m]", 2.0}}), std::runtime_error);
+  EXPECT_EQ(read_text(outside), text);
+}
+
+TEST_F(TableWriterTest, ARemovedFileBeginsAnewAndIsTold) {
+  TableWriter table(file);
+  for (const double time : {1.0, 2.0, 3.0}) table.append(time, {{"x[m]", time}});
+  EXPECT_EQ(table.loss(), "");
+  std::filesystem::remove(file);
+  table.append(4, {{"x[m]", 4.0}});
+  table.append(5, {{"x[m]", 5.0}});
+  EXPECT_EQ(read_text(file), "time[s],x[m]\n4,4\n5,5\n");
+  EXPECT_EQ(table.rows(), 2) << "a restart counts what is in the file";
+  EXPECT_THAT(table.loss(), testing::HasSubstr("history.csv was removed while the run wrote it, with 3 rows"));
+}
+
+TEST_F(TableWriterTest, AnotherFileInItsPlaceIsNotTouched) {
+  TableWriter table(file);
+  table.append(1, {{"x[m]", 1.0}});
+  std::filesystem::remove(file);
+  write_text(file, "of somebody else");
+  EXPECT_THROW(table.append(2, {{"x[m]", 2.0}}), std::runtime_error);
+  EXPECT_EQ(read_text(file), "of somebody else");
+}
+
 TEST_F(TableWriterTest, AnUnwritablePlaceIsAnError) {
   TableWriter table(folder / "missing" / "history.csv");
   EXPECT_THROW(table.append(0, {}), std::runtime_error);
