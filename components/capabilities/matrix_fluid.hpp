@@ -33,6 +33,9 @@ class MatrixFluid {
   /// Whether there is a flow in a cell. Where there is none, the pressure stays the initial one, and no part may add
   /// anything to the row of the cell.
   virtual bool is_in_cell(int /*cell*/) const { return true; }
+  /// Whether fluid passes a side of the outer boundary, since its pressure is prescribed; an index into
+  /// Mesh::side_names.
+  virtual bool is_open(int /*side*/) const { return false; }
 };
 
 /// Capability: accepts a flux through the walls of fractures, and gives the pressure there.

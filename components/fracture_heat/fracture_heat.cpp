@@ -51,6 +51,11 @@ Spec Options::spec() {
                         return side_spec(boundary[side]);
                       },
                       {.doc = "Temperatures where fractures end on a side; else nothing is conducted there."});
+  crossings.declare(spec, "conductivity",
+                    {.unit = "W/(m*K)",
+                     .range = positive(),
+                     .doc = "Thermal conductivity of what fills the crossing; by default the harmonic mean of those of "
+                            "the fractures that meet."});
   return spec;
 }
 
@@ -92,7 +97,8 @@ FractureHeat::FractureHeat(const ComponentContext& context, const Options& optio
     wall_conductance_[2 * i] = wall_conductance_[2 * i + 1] = 2 * conductivity[i] / aperture[i];
   }
   capacity_of_temperature_ = Operator(diagonal_matrix(capacity_));
-  connect();
+  options_.crossings.check_names(mesh_);
+  connect(conductivity.cwiseInverse(), aperture);
 }
 
 const Data* FractureHeat::end_condition(int point) const {
@@ -107,7 +113,7 @@ std::optional<double> FractureHeat::end_temperature(int point) const {
   return end_temperature_[point];
 }
 
-void FractureHeat::connect() {
+void FractureHeat::connect(const Vector& resistivity, const Vector& aperture) {
   const int points = static_cast<int>(mesh_.fracture_points.size()), cells = mesh_.fracture_cell_count();
   conductance_to_end_ = Vector::Zero(points);
   std::vector<Triplet> entries, ends;
@@ -128,14 +134,25 @@ void FractureHeat::connect() {
     }
   }
   // Halves that meet in a point without storage: a star, which is the same as a conductor between each two of them.
-  for (const Junction& junction : mesh_.junctions) {
+  const std::vector<CrossingFill> fills = options_.crossings.fills(mesh_);
+  for (std::size_t k = 0; k < mesh_.junctions.size(); ++k) {
+    const std::vector<int>& at = mesh_.junctions[k].cells;
+    std::vector<CrossingArm> arms;
+    for (const int cell : at) {
+      const FractureCell& of_arm = mesh_.fracture_cells[cell];
+      arms.push_back({of_arm.fracture, 0.5 * of_arm.measure, aperture[cell], resistivity[cell],
+                      0.5 * aperture[cell] * resistivity[cell]});
+    }
+    const std::vector<WayToMiddle> ways = ways_to_middle(arms, fills[k]);
+    std::vector<double> halves;
     double sum = 0;
-    for (const int cell : junction.cells) sum += half_conductance_[cell];
-    for (std::size_t i = 0; i < junction.cells.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        const int a = junction.cells[i], b = junction.cells[j];
-        join(a, b, half_conductance_[a] * half_conductance_[b] / sum);
-      }
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double half = half_conductance_[at[i]];
+      halves.push_back(half / (ways[i].kept + half * ways[i].added));
+      sum += halves[i];
+    }
+    for (std::size_t i = 0; i < at.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) join(at[i], at[j], halves[i] * halves[j] / sum);
   }
   SparseMatrix outflow(cells, cells), leaving(cells, cells);
   outflow.setFromTriplets(entries.begin(), entries.end());
@@ -202,6 +219,8 @@ void FractureHeat::balance(std::map<std::string, Balance>& balances) const {
     heat.throughput += cumulative_.now().segment<2>(2 * i).lpNorm<1>();
   }
 }
+
+void FractureHeat::note_input(Notes& notes) const { options_.crossings.note_input(mesh_, name(), notes); }
 
 std::vector<double> FractureHeat::switch_times() const {
   std::vector<const Data*> data;

@@ -10,6 +10,7 @@
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
+#include "framework/scene/crossings.hpp"
 
 namespace sprekk::fracture_heat {
 
@@ -21,6 +22,7 @@ struct Options {
   Data initial_temperature;  ///< K
   std::map<std::string, Data> boundary;
   std::map<std::string, Origin> boundary_origins;
+  Crossings crossings;
   Spec spec();
 };
 
@@ -28,9 +30,9 @@ struct Options {
 /// step (J/m):
 ///   C a L (T − T_old) + dt (sum of the conducted fluxes out of it) = 0,
 /// the flux between two cells through the resistances L/(2 k a) of their halves in series. Where more than two cells
-/// meet, each half leads to the junction, which stores nothing. What comes through the walls, and what flowing fluid
-/// carries, is added by couplers; a is the aperture at the start of the run, and fluid that enters later brings its own
-/// heat capacity.
+/// meet, each half leads through what fills the crossing to its middle, which stores nothing. What comes through the
+/// walls, and what flowing fluid carries, is added by couplers; a is the aperture at the start of the run, and fluid
+/// that enters later brings its own heat capacity.
 class FractureHeat : public Component, public FractureTemperature, public KeepsTotals {
  public:
   FractureHeat(const ComponentContext& context, const Options& options);
@@ -42,6 +44,7 @@ class FractureHeat : public Component, public FractureTemperature, public KeepsT
   void balance(std::map<std::string, Balance>& balances) const override;
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
+  void note_input(Notes& notes) const override;
 
   Field& temperature() override { return temperature_; }
   const Vector& heat_capacity() const override { return capacity_; }
@@ -50,7 +53,8 @@ class FractureHeat : public Component, public FractureTemperature, public KeepsT
 
  private:
   const Data* end_condition(int point) const;  ///< nullptr where there is none
-  void connect();
+  /// `resistivity`: of each cell along it, m K/W; `aperture`: m.
+  void connect(const Vector& resistivity, const Vector& aperture);
   Vector leaving() const;  ///< W/m, of each cell: what is conducted out through ends on sides
 
   const Mesh& mesh_;

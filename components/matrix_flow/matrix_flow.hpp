@@ -123,6 +123,10 @@ class MatrixFlow : public Component,
   Field& pressure() override { return pressure_; }
   const Vector& initial_pressure() const override { return initial_pressure_; }
   double largest_given_pressure() const override;
+  bool is_open(int side) const override {
+    const auto found = options_.boundary.find(mesh_.side_names[side]);
+    return found != options_.boundary.end() && found->second.pressure.has_value();
+  }
   const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
   void change_viscosity(const Vector& viscosity) override;
   void accept_rock_storage(const Vector& storage) override { rock_storage_ = storage; }

@@ -40,6 +40,26 @@ std::string table(const char* name) {
   return (std::filesystem::path(SPREKK_SOURCE_DIR) / "tests/input/tables" / name).string();
 }
 
+/// A crack through a sealed fracture, in rock.
+Settings with_seal(const Settings& more) {
+  Settings settings = {"components.rock=",
+                       "components.contact=",
+                       "output=",
+                       "materials.young_modulus=",
+                       "materials.poisson_ratio=",
+                       "materials.biot_coefficient=",
+                       "materials.friction=",
+                       "couplers=[{type: wall_exchange, between: [pore, conduit]}]",
+                       "schedule=[{solve: [pore, conduit]}]",
+                       "geometry.fractures.seal={points: [[0.5 m, 0.1 m], [0.5 m, 0.9 m]]}",
+                       "components.conduit.normal_permeability=constant"};
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
+const std::string tight_seal =
+    "components.conduit.normal_permeability_value={fractures: {seal: 1e-15 m/(Pa*s), crack: 1e-3 m/(Pa*s)}}";
+
 class InputNotes : public ::testing::TestWithParam<Input> {};
 
 TEST_P(InputNotes, AreToldByCheck) {
@@ -111,11 +131,30 @@ INSTANTIATE_TEST_SUITE_P(
         Input{"fractured.yaml", {"components.conduit.prescribed.there={at: [0.32 m, 0.5 m], pressure: 1 MPa}"}, ""},
         Input{"fractured.yaml",
               {"components.conduit.boundary.right={pressure: 1 MPa}"},
-              "the pressure of 'conduit' on side 'right' has no effect (no fracture ends there)"},
+              "the end of 'conduit' on side 'right' has no effect (no fracture ends there)"},
         Input{"fractured.yaml",
               {"components.conduit.boundary.right={pressure: 1 MPa}",
                "geometry.fractures.crack.points=[[0.3 m, 0.5 m], [1 m, 0.5 m]]"},
               ""},
+        Input{"fractured.yaml",
+              {"geometry.fractures.crack.points=[[0 m, 0.5 m], [0.7 m, 0.5 m]]"},
+              "nothing flows out of the fracture 'crack' at the side 'left', where the rock is open"},
+        Input{"fractured.yaml",
+              {"geometry.fractures.crack.points=[[0 m, 0.5 m], [0.7 m, 0.5 m]]",
+               "components.conduit.boundary.left={closed: true}"},
+              ""},
+        Input{"fractured.yaml",
+              {"geometry.fractures.crack.points=[[0 m, 0.5 m], [0.7 m, 0.5 m]]",
+               "components.conduit.boundary.left={pressure: 0 Pa}"},
+              ""},
+        Input{"fractured.yaml", {"geometry.fractures.crack.points=[[0.3 m, 0.5 m], [1 m, 0.5 m]]"}, ""},
+        Input{"fractured.yaml",
+              {"components.conduit.crossings.x={permeability: 1e-12 m^2}"},
+              "'x' of 'conduit.crossings' has no effect (its fractures do not meet)"},
+        Input{"fractured.yaml", with_seal({tight_seal}),
+              "fluid of 'conduit' in the fracture 'crack' passes 'seal' at (0.5, 0.5) as if 'seal' had no walls"},
+        Input{"fractured.yaml", with_seal({tight_seal, "components.conduit.crossings.x={through: seal}"}), ""},
+        Input{"fractured.yaml", with_seal({"components.conduit.normal_permeability_value=1e-15 m/(Pa*s)"}), ""},
         Input{"fractured.yaml",
               {"couplers=[" + all_but_aperture + ", {type: wall_traction, between: [rock, contact, conduit]}]"},
               "the aperture in conduit stays what it is at the start, however far contact opens"},
@@ -160,7 +199,8 @@ INSTANTIATE_TEST_SUITE_P(
         // A fracture from side to side has no tip.
         Input{"fractured.yaml",
               {"materials.permeability={xx: 1e-17 m^2, yy: 1e-18 m^2}",
-               "geometry.fractures.crack.points=[[0 m, 0.5 m], [1 m, 0.5 m]]"},
+               "geometry.fractures.crack.points=[[0 m, 0.5 m], [1 m, 0.5 m]]",
+               "components.conduit.boundary.left={pressure: 0 Pa}"},
               ""},
         Input{"fractured.yaml", {}, ""}));
 

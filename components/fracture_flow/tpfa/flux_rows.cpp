@@ -53,16 +53,49 @@ Conductance FractureFlow::conductance_by_opening(const Link& link) const {
 
 std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
   std::vector<JunctionFluxes> fluxes;
-  for (const Junction& junction : mesh_.junctions) {
+  const bool passes_walls = options_.crossings.find_through() && options_.has_given_walls();
+  const NormalPermeability walls = passes_walls ? normal_permeability() : NormalPermeability{};
+  for (std::size_t j = 0; j < mesh_.junctions.size(); ++j) {
+    const Junction& junction = mesh_.junctions[j];
     std::vector<JunctionFluxes::Half> halves =
         options_.is_constant() ? given_halves(junction) : halves_by_opening(junction);
     for (std::size_t k = 0; k < halves.size(); ++k)
       if (!is_in_fracture_cell(junction.cells[k]))
         halves[k] = {0, Vector::Zero(static_cast<Eigen::Index>(halves.size()))};
     if (has_inertia()) slow_down(junction, halves);
+    pass_crossing(j, walls.value, halves);
     fluxes.emplace_back(junction, std::move(halves));
   }
   return fluxes;
+}
+
+/// Apertures are those at the start: what fills a crossing does not open. Arms without one, which have grown, and dry
+/// ones take no part. `walls`: the normal permeability of each wall; empty where it follows from that along.
+void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
+                                 std::vector<JunctionFluxes::Half>& halves) const {
+  const CrossingFill& fill = crossing_fills_[junction];
+  if (!fill.is_said() && !options_.is_constant()) return;
+  const Junction& at = mesh_.junctions[junction];
+  std::vector<CrossingArm> arms;
+  for (const int cell : at.cells) {
+    const double width = is_in_fracture_cell(cell) ? initial_aperture_[cell] : 0;
+    const double resistivity = options_.is_constant() ? width / given_transmissivity(cell, at.points.front()) : 0;
+    // The mean of both walls.
+    const double across = walls.size() > 0 ? 0.5 * (1 / walls[2 * cell] + 1 / walls[2 * cell + 1]) / viscosity_[cell]
+                                           : 0.5 * width * resistivity;
+    const FractureCell& of_arm = mesh_.fracture_cells[cell];
+    arms.push_back({of_arm.fracture, 0.5 * of_arm.measure, width, resistivity, across});
+  }
+  const std::vector<WayToMiddle> ways = ways_to_middle(arms, fill);
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    const WayToMiddle& way = ways[i];
+    JunctionFluxes::Half& half = halves[i];
+    if (half.value == 0 || (way.kept == 1 && way.added == 0)) continue;
+    const double passed = 1 / (way.kept + half.value * viscosity_[at.cells[i]] * way.added);
+    half.by_aperture *= way.kept * passed * passed;
+    half.by_outflow *= way.kept * passed * passed;
+    half.value *= passed;
+  }
 }
 
 std::vector<JunctionFluxes::Half> FractureFlow::given_halves(const Junction& junction) const {

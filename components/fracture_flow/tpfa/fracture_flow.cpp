@@ -47,6 +47,8 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
   check_names();
+  options_.crossings.check_names(mesh_);
+  crossing_fills_ = options_.crossings.fills(mesh_);
   if (options_.cavitation)
     empty_ = &context.fields.add(
         mesh_, {.owner = context.name,
@@ -202,11 +204,15 @@ FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
 
 FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) const {
   if (!options_.is_constant()) return cubic_law(cell);
+  return {given_transmissivity(cell, point) / viscosity_[cell], 0};
+}
+
+double FractureFlow::given_transmissivity(int cell, int point) const {
   const FractureCell& at = mesh_.fracture_cells[cell];
   const Point& position = mesh_.fracture_points[point].position;
   const auto away = [&](int end) { return (mesh_.fracture_points[at.points[end]].position - position).squaredNorm(); };
   const int end = away(0) < away(1) ? 0 : 1;
-  return {transmissivity_of_half_[end][cell] / viscosity_[cell], 0};
+  return transmissivity_of_half_[end][cell];
 }
 
 FractureFlow::Transmissivity FractureFlow::cubic_law(int cell) const {

@@ -133,6 +133,14 @@ class FractureFlow : public Component,
   std::vector<JunctionFluxes> junction_fluxes() const;
   std::vector<JunctionFluxes::Half> given_halves(const Junction& junction) const;
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
+  /// Notes fractures that end on a side where the rock is open, if the scene says nothing about their ends.
+  void note_ends(Notes& notes) const;
+  /// Notes a fracture that passes the tight walls of another by a crossing whose fill is not said.
+  void note_crossings(Notes& notes) const;
+  /// Leads the halves through what fills the crossing.
+  void pass_crossing(std::size_t junction, const Vector& walls, std::vector<JunctionFluxes::Half>& halves) const;
+  /// K (m^3) of the half of a cell at a point where the transmissivity is given.
+  double given_transmissivity(int cell, int point) const;
   double pressure_drop(const Link& link) const;
   struct FluxRows;
   /// Terms of a density that varies (varying_density.cpp).
@@ -194,6 +202,7 @@ class FractureFlow : public Component,
   MeansAlong given_transmissivity_, given_normal_permeability_;  ///< m^3, m/(Pa s), one a cell
   std::array<MeansAlong, 2> transmissivity_of_half_;             ///< by FractureCell::points
   std::array<MeansAlong, 2> given_wall_permeability_;            ///< by Wall, m/(Pa s), one a cell
+  std::vector<CrossingFill> crossing_fills_;                     ///< of each junction
   std::vector<Link> links_;
   Vector source_;                     ///< m^2/s, one a cell
   std::vector<FluidSource> sources_;  ///< the same by name

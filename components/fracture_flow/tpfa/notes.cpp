@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "components/capabilities/matrix_fluid.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/mesh/planar.hpp"
 
@@ -11,6 +12,8 @@ namespace sprekk::fracture_flow {
 namespace {
 
 constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest borehole has above it
+/// What passes a wall, of what passes a crossing beside it, below which a note asks for what fills the crossing.
+constexpr double much_tighter = 0.01;
 
 }  // namespace
 
@@ -34,9 +37,12 @@ void FractureFlow::note_input(Notes& notes) const {
     });
     if (!has_end)
       note("boundary." + side, origin,
-           "the pressure of '" + name() + "' on side '" + side +
+           "the end of '" + name() + "' on side '" + side +
                "' has no effect (no fracture ends there) remove it, or let a fracture reach this side");
   }
+  note_ends(notes);
+  options_.crossings.note_input(mesh_, name(), notes);
+  note_crossings(notes);
   if (!options_.gravity.is_zero() && options_.fluid_density == 0)
     note("gravity", origin_,
          "gravity has no effect on the flow of '" + name() +
@@ -58,6 +64,61 @@ void FractureFlow::note_input(Notes& notes) const {
     note("normal_permeability_value", origin_,
          "'normal_permeability_value' of '" + name() +
              "' has no effect (it follows the cubic law) write 'normal_permeability: constant', or remove it");
+}
+
+void FractureFlow::note_ends(Notes& notes) const {
+  if (!rock_fluid_) return;
+  for (const FracturePoint& point : mesh_.fracture_points) {
+    if (point.kind != FracturePoint::Kind::on_boundary || !rock_fluid_->is_open(point.side)) continue;
+    const int cell = point.cells[0];
+    const std::string& side = mesh_.side_names[point.side];
+    const auto is_wet = [&](int wall_face) { return rock_fluid_->is_in_cell(mesh_.face_cells[wall_face][0]); };
+    if (options_.ends.count(side) > 0 || !is_in_fracture_cell(cell) || transmissivity(cell).value == 0 ||
+        std::ranges::none_of(mesh_.fracture_cells[cell].faces, is_wet))
+      continue;
+    notes.add(
+        name() + ".boundary." + side + " unsaid",
+        fmt::format("{}: nothing flows out of the fracture '{}' at the side '{}', where the rock is open (what holds "
+                    "at its end is not said) give '{}' under 'boundary' a pressure for '{}', or 'closed: true'",
+                    origin_.text(), mesh_.fractures[mesh_.fracture_cells[cell].fracture].name, side, name(), side));
+  }
+}
+
+void FractureFlow::note_crossings(Notes& notes) const {
+  if (!rock_fluid_) return;  // the walls let nothing through anyway
+  const NormalPermeability walls = normal_permeability();
+  const auto tighter_wall = [&](int cell) { return std::min(walls.value[2 * cell], walls.value[2 * cell + 1]); };
+  for (std::size_t j = 0; j < mesh_.junctions.size(); ++j) {
+    if (crossing_fills_[j].is_said()) continue;
+    const Junction& junction = mesh_.junctions[j];
+    std::vector<JunctionFluxes::Half> halves =
+        options_.is_constant() ? given_halves(junction) : halves_by_opening(junction);
+    pass_crossing(j, {}, halves);
+    const auto fracture_of = [&](int cell) { return mesh_.fracture_cells[cell].fracture; };
+    const auto goes_on = [&](int cell) {
+      return std::ranges::count_if(junction.cells,
+                                   [&](int other) { return fracture_of(other) == fracture_of(cell); }) == 2;
+    };
+    for (std::size_t i = 0; i < junction.cells.size(); ++i)
+      for (const int barrier : junction.cells) {
+        const int cell = junction.cells[i];
+        if (fracture_of(barrier) == fracture_of(cell) || !goes_on(cell) || !goes_on(barrier)) continue;
+        const double through_wall = tighter_wall(barrier) * initial_aperture_[cell];
+        if (!is_in_fracture_cell(cell) || !is_in_fracture_cell(barrier) || halves[i].value == 0 ||
+            through_wall > much_tighter * halves[i].value || tighter_wall(barrier) > much_tighter * tighter_wall(cell))
+          continue;
+        const std::string &passing = mesh_.fractures[fracture_of(cell)].name,
+                          &passed = mesh_.fractures[fracture_of(barrier)].name;
+        notes.add(
+            name() + ".crossings unsaid",
+            fmt::format("fluid of '{}' in the fracture '{}' passes '{}' at {} as if '{}' had no walls (what fills "
+                        "the crossing is not said) write 'crossings: {{NAME: {{between: [{}, {}], through: {}}}}}' "
+                        "in '{}', or give it a permeability",
+                        name(), passing, passed, to_text(mesh_.fracture_points[junction.points.front()].position),
+                        passed, passed, passing, passed, name()),
+            1 - through_wall / halves[i].value);
+      }
+  }
 }
 
 void FractureFlow::note_step(Notes& notes, const StepTime&) const {

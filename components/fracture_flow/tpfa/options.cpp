@@ -28,10 +28,16 @@ Spec prescribed_spec(PrescribedPressure& prescribed) {
   return spec;
 }
 
-Spec side_spec(Data& pressure) {
-  Spec spec("boundary condition of flow in fractures", "For fractures that end on this side.");
-  spec.data("pressure", pressure,
-            {.unit = "Pa", .doc = "Pressure where fractures meet this side.", .required = true, .in_time = true});
+Spec side_spec(EndCondition& end) {
+  Spec spec("boundary condition of flow in fractures", "For fractures that end on this side: one of the two.");
+  spec.data("pressure", end.pressure,
+            {.unit = "Pa", .doc = "Pressure where fractures meet this side.", .in_time = true});
+  spec.flag("closed", end.is_closed, {.doc = "Nothing flows out of fractures here, also where the rock is open."});
+  spec.check([&end](const Node& node) {
+    if (end.pressure.has_value() == end.is_closed)
+      throw InputError(node.origin, "'" + node.path + "' does not say whether fractures are open there",
+                       "it is one of 'pressure' and 'closed: true'", "give one of them");
+  });
   return spec;
 }
 
@@ -146,14 +152,28 @@ Spec Options::spec() {
                         return prescribed_spec(prescribed[key]);
                       },
                       {.doc = "Prescribed pressures by name."});
-  static Data example_pressure;
-  spec.named_sections("boundary", side_spec(example_pressure),
+  static EndCondition example_end;
+  spec.named_sections("boundary", side_spec(example_end),
                       [this](const std::string& key, const Origin& origin) {
                         boundary_origins[key] = origin;
-                        return side_spec(boundary[key]);
+                        return side_spec(ends[key]);
                       },
-                      {.doc = "Pressures where fractures end on a side; else no fluid flows out there."});
+                      {.doc = "Where fractures end on a side; else no fluid flows out there."});
+  crossings.declare(spec, "permeability",
+                    {.unit = "m^2",
+                     .range = non_negative(),
+                     .doc = "Permeability of what fills the crossing; 0 seals it. By default it is the harmonic mean "
+                            "of K_i/a of the fractures that meet, where their transmissivities are given, and the "
+                            "crossing is open where they follow from apertures.",
+                     .source = "Flemisch and others (2018), sec. 4.3"});
   spec.check([this](const Node& node) {
+    for (const auto& [side, end] : ends)
+      if (end.pressure) boundary.insert_or_assign(side, *end.pressure);
+    if (const Origin* through = crossings.find_through(); through && !is_constant() && !has_given_walls())
+      throw InputError(*through, "nothing fills the crossing in which a fracture is to go through",
+                       "the transmissivity follows from the aperture, so that all fractures are open",
+                       "give the walls of the fracture a 'normal_permeability_value', or give the crossing a "
+                       "'permeability'");
     if (const Node* given = node.find("fractures")) fractures_origin = given->origin;
     for (const char* key : {"transmissivity", "transmissivity_value"})
       if (has_law && node.find(key) && !node.find(key)->is_null())

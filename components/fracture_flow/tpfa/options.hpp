@@ -9,6 +9,7 @@
 
 #include "components/fracture_flow/laws/law_options.hpp"
 #include "framework/config/spec.hpp"
+#include "framework/scene/crossings.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -29,6 +30,12 @@ struct Injection {
 struct PrescribedPressure {
   FracturePlace where;
   Data pressure;  ///< Pa
+};
+
+/// What holds where fractures end on a side: a pressure, or nothing flows out there.
+struct EndCondition {
+  std::optional<Data> pressure;  ///< Pa
+  bool is_closed = false;
 };
 
 /// Parameters of the flow in fractures.
@@ -55,12 +62,18 @@ struct Options {
   Origin fractures_origin;
   std::map<std::string, Injection> injections;
   std::map<std::string, PrescribedPressure> prescribed;
-  std::map<std::string, Data> boundary;  ///< pressure by side, Pa
+  std::map<std::string, EndCondition> ends;  ///< by side, as the scene says it
+  std::map<std::string, Data> boundary;      ///< pressure by side, Pa
   std::map<std::string, Origin> boundary_origins;
+  Crossings crossings;
   Spec spec();
 
   /// Whether the transmissivity is given; otherwise it follows from the aperture.
   bool is_constant() const { return has_law ? law.type == "constant" : transmissivity == "constant"; }
+  /// Whether walls conduct as a given permeability says; otherwise it follows from the aperture.
+  bool has_given_walls() const {
+    return normal_permeability == "constant" || (wall_permeability[0] && wall_permeability[1]);
+  }
   const std::optional<Data>& given_transmissivity() const {
     return has_law ? law.transmissivity : transmissivity_value;
   }
