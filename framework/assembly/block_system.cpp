@@ -1,10 +1,14 @@
 #include "framework/assembly/block_system.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 
+#include "framework/assembly/floating_balances.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -178,6 +182,24 @@ std::vector<char> BlockSystem::known_rows(const Assembly& assembly) const {
   for (std::size_t i = 0; i < known_.size(); ++i)
     if (!known_[i].has_values_of(assembly.blocks()[i])) known[known_[i].row] = false;
   return known;
+}
+
+std::string BlockSystem::describe_floating(const Assembly& assembly) const {
+  const std::vector<FloatingBalances> all = floating_balances(assembly, owned_, first_);
+  if (all.empty()) return "";
+  const FloatingBalances& one = all.front();
+  const auto block = std::ranges::find_if(system_.blocks, [&](const UnknownBlock& other) {
+    return one.first >= other.first && one.first < other.first + other.entities * other.components;
+  });
+  SPREKK_ASSERT(block != system_.blocks.end(), one.first);
+  const std::string where =
+      block->coordinates.empty() ? "" : " around " + to_text(block->coordinates[one.first - block->first]);
+  return fmt::format(
+      "nothing holds {}{} ({} {} of {} store{} nothing, and nothing leads from there to a given value: any constant "
+      "may "
+      "be added) let something be stored there, or give a value to which it leads",
+      block->name, where, one.balances, one.balances == 1 ? "balance" : "balances",
+      assembly.balances().quantities()[one.quantity].name, one.balances == 1 ? "s" : "");
 }
 
 const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {

@@ -1,6 +1,7 @@
 // From an assembly to the sparse system of the rows that this process owns.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,8 @@ class BlockSystem {
   std::vector<Balances::Quantity> sums_of(const Assembly& assembly) const {
     return sums_.sums_of(assembly, owned_, first_);
   }
+  /// "" or, where nothing holds some balances of an assembly, a sentence that says which. Collective.
+  std::string describe_floating(const Assembly& assembly) const;
   void use_sums(bool wanted) { sums_.are_used = wanted; }
   void use_coupled_sums(bool wanted);
   /// The sum over all processes of the residuals of balances, without the round-off of what rows exchange. Collective.

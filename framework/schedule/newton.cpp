@@ -341,6 +341,13 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
                           check.equation, check.largest),
               iteration};
 
+    if (iteration == 0)
+      if (const std::string floating = system_.describe_floating(*assembly_); !floating.empty()) {
+        was_singular_ = true;
+        StepStatus status{false, "singular system: " + floating, 0};
+        status.is_hopeless = true;
+        return status;
+      }
     LinearReport factoring = linear_->factor(system_.matrix(*assembly_));
     if (!factoring.solved && take_coupled_sums(check)) factoring = linear_->factor(system_.matrix(*assembly_));
     if (!factoring.solved) {

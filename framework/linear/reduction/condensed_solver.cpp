@@ -77,6 +77,23 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
   return reduced;
 }
 
+/// Whether a row of the bulk that was left to the interface has nothing but the round-off of what it exchanges with the
+/// rest of its bulk: then neither the fractures nor what is stored hold that part of the bulk, or too weakly to be seen
+/// after the elimination.
+bool is_lost(const BulkSplitting& split, const SparseMatrix& reduced,
+             const BulkSchurComplement::RowMatrix& schur_rows) {
+  constexpr double lost = 1e-13;  // of the terms, each of them a sum of many
+  for (std::size_t k = 0; k < split.interface_rows.size(); ++k) {
+    const int row = split.interface_rows[k];
+    if (!split.is_held_row(row)) continue;
+    double terms = schur_rows.row(static_cast<Eigen::Index>(k)).lpNorm<1>(), left = 0;
+    for (SparseMatrix::InnerIterator entry(split.ff.matrix, row); entry; ++entry) terms += std::abs(entry.value());
+    for (SparseMatrix::InnerIterator entry(reduced, row); entry; ++entry) left += std::abs(entry.value());
+    if (left <= lost * terms) return true;
+  }
+  return false;
+}
+
 /// The number of systems for which a bulk has to stay until condensing has paid for the columns of X, or infinity. The
 /// unit of cost is a factorization of the bulk, with its ordering. Then f columns cost C = f / 200, and the dense part
 /// of a reduced system R = (f / (7 sqrt(n)))^3, measured from 4,000 to 250,000 unknowns (docs/performance.md); so m
@@ -170,7 +187,10 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
     return bulk.report =
                LinearReport::failure("the bulk could not be factorized for equations on fractures that have changed");
   reduced_number_ = system.number;
-  return reduced_report_ = reduced_.factor(split.local_system(reduced_matrix(split, reduced_pattern_, *schur_rows)));
+  SparseMatrix reduced = reduced_matrix(split, reduced_pattern_, *schur_rows);
+  if (is_lost(split, reduced, *schur_rows))
+    return reduced_report_ = LinearReport::failure("a part of the bulk is not held by its fractures");
+  return reduced_report_ = reduced_.factor(split.local_system(std::move(reduced)));
 }
 
 void CondensedSolver::split_anew(const LinearSystem& system, std::vector<char> held) {

@@ -138,6 +138,30 @@ TEST_P(Condensed, KeepsACellOfABulkThatFloats) {
   EXPECT_EQ(solver.counts().factorizations, 1);
 }
 
+// The same without the spring: what elimination leaves of the row of the cell is round-off, which is no stiffness.
+TEST_P(Condensed, RefusesABulkThatNothingHolds) {
+  constexpr int n = 9;
+  const LinearSystem floating = test::poisson(n, true);
+  std::vector<Triplet> entries;
+  for (int row = 0; row < n * n; ++row) {
+    double others = 0;
+    for (SparseMatrix::InnerIterator entry(floating.local, row); entry; ++entry) {
+      if (entry.col() == row) continue;
+      const double conductance = 1 / (3.0 + row + entry.col());
+      others += conductance;
+      entries.emplace_back(row, entry.col(), -conductance);
+    }
+    entries.emplace_back(row, row, others);
+  }
+  const int local = n * n;
+  entries.insert(entries.end(), {{3, local, 1.0}, {local, local, 1.0}, {local, 3, 0.0}});
+  std::vector<UnknownBlock> blocks = floating.blocks;
+  blocks.push_back({"sealed.flux", local, 1, 1, BlockKind::interface, {}, {}});
+  const LinearReport report = solver.factor(test::make_system(n * n + 1, entries, blocks));
+  EXPECT_FALSE(report.solved);
+  EXPECT_NE(report.reason.find("singular"), std::string::npos) << report.reason;
+}
+
 // The Laplacian of n × n nodes, the first `count` of which are coupled to a local unknown each.
 LinearSystem with_local_unknowns(int n, int count) {
   const LinearSystem bulk = test::poisson(n);
