@@ -54,7 +54,7 @@ struct BuoyancyOptions {
                   {.unit = "K", .doc = "T_0, of the linear and the exponential law."});
     spec.quantity("compressibility", compressibility,
                   {.unit = "1/Pa",
-                   .range = non_negative(),
+                   .range = between(0, 100),
                    .doc = "How much denser the fluid is under pressure (water: 4.5e-10 1/Pa)."});
     spec.quantity("reference_pressure", reference_pressure,
                   {.unit = "Pa", .doc = "p_0; the pressure at which the law without compressibility holds."});

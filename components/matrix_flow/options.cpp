@@ -33,8 +33,8 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
       {.range = between(0, 1), .doc = "Porosity.", .source = "the paper's Table 1", .material = true, .in_time = true});
   spec.data("fluid_compressibility", fluid_compressibility,
             {.unit = "1/Pa",
-             .range = non_negative(),
-             .doc = "Compressibility of the fluid.",
+             .range = between(0, 100),
+             .doc = "Compressibility of the fluid; at most that of a gas at 0.01 Pa.",
              .source = "the paper's Table 1",
              .material = true,
              .in_time = true});

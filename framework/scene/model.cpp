@@ -1,12 +1,15 @@
 #include "framework/scene/model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <stdexcept>
 
+#include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/lives_in_part.hpp"
+#include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
 #include "framework/mesh/partition.hpp"
@@ -15,6 +18,7 @@
 #include "framework/output/activity.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/scene/lost_amounts.hpp"
 #include "framework/scene/probe_checks.hpp"
 #include "framework/schedule/gaps.hpp"
 #include "framework/schedule/limits_step.hpp"
@@ -221,14 +225,55 @@ void Model::prepare(const StepTime& step) {
   }
 }
 
+namespace {
+
+/// What the equations of all unknowns say of a quantity at the end of a step. Collective.
+StepAmounts amounts_of(const std::string& quantity, const Mesh& mesh, const std::vector<const Field*>& unknowns,
+                       const std::vector<Part*>& parts, const StepTime& step, bool lets_out) {
+  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // as Newton's method grants
+  Assembly assembly(unknowns, Assembly::Request::residual);
+  assemble_all(assembly, parts, step);
+  StepAmounts amounts;
+  for (const Balances::Quantity& balanced : assembly.balances().quantities()) {
+    if (balanced.name != quantity) continue;
+    for (const int u : balanced.unknowns) {
+      const Field& field = *unknowns[u];
+      for (int i = 0; i < field.size(); ++i)
+        if (is_owned(mesh, field.spec().location, i)) amounts.moved += assembly.balances().throughput(u)[i];
+      // What leaves all rows is a difference of numbers as large as what rows exchange.
+      amounts.round_off += round_off * std::max(parallel::max(assembly.balances().round_off_base(u)),
+                                                lets_out ? parallel::max(assembly.round_off_base(u)) : 0.0);
+    }
+  }
+  amounts.moved = parallel::sum(amounts.moved);
+  return amounts;
+}
+
+}  // namespace
+
 StepStatus Model::attempt(const StepTime& step) {
+  const std::map<std::string, Balance> before = balances();
   prepare(step);
   now_doing("assembling and ordering");
   StepStatus status = schedule_->run(step);
+  if (status.converged) refuse_losses(before, step, status);
   if (status.converged) refuse_too_long(step, status);
   require_agreement("how a step ended",
                     {step.start, step.dt, status.converged ? 1.0 : 0.0, status.retry_dt, double(status.iterations)});
   return status;
+}
+
+void Model::refuse_losses(const std::map<std::string, Balance>& before, const StepTime& step,
+                          StepStatus& status) const {
+  const double tolerance = schedule_->largest_imbalance();
+  if (std::isinf(tolerance)) return;
+  const std::map<std::string, Balance> after = balances();
+  const std::string lost = find_lost_amounts(before, after, tolerance, [&](const std::string& quantity) {
+    return amounts_of(quantity, mesh_, schedule_->unknowns(), parts_, step, after.at(quantity).outflow != 0);
+  });
+  if (lost.empty()) return;
+  status.converged = false;
+  status.reason = lost;
 }
 
 void Model::refuse_too_long(const StepTime& step, StepStatus& status) const {

@@ -72,6 +72,8 @@ class Model {
   void check_stages() const;
   void check_data();
   void check_constant_modes() const;
+  /// Turns the status of a step that has lost an amount of a conserved quantity into "not converged".
+  void refuse_losses(const std::map<std::string, Balance>& before, const StepTime& step, StepStatus& status) const;
   /// Turns the status of a step that a part finds too long (LimitsStep) into "not converged".
   void refuse_too_long(const StepTime& step, StepStatus& status) const;
   std::vector<OutputField> derived_output() const;  ///< what parts write beside their fields

@@ -114,6 +114,14 @@ double UntilOptions::tightest() const {
   return least;
 }
 
+double UntilOptions::loosest() const {
+  double of_all = is_relative_given || (all.empty() && any.empty()) ? relative : 1, of_any = any.empty() ? 1 : 0;
+  for (const CriterionOptions& condition : all)
+    if (condition.residual) of_all = std::min(of_all, *condition.residual);
+  for (const CriterionOptions& condition : any) of_any = std::max(of_any, condition.residual.value_or(1));
+  return std::min(of_all, of_any);
+}
+
 bool UntilOptions::bounds_residual() const {
   const auto is_of_residual = [](const CriterionOptions& condition) { return condition.residual.has_value(); };
   if (is_relative_given || (all.empty() && any.empty())) return true;

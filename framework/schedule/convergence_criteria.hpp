@@ -33,6 +33,8 @@ struct UntilOptions {
   Spec spec();
   /// The smallest bound of the residual that is asked for; `relative` where none is.
   double tightest() const;
+  /// The largest bound of the residual with which an iteration may end; only where `bounds_residual`.
+  double loosest() const;
   /// Whether no iteration ends without a bound of the residual.
   bool bounds_residual() const;
   /// Throws InputError for conditions on a residual, which an iteration over substeps does not have.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -238,6 +239,11 @@ StepStatus IterateStep::converged(const StepTime& step, const StepStatus& status
   assemble_all(assembly, parts_, step);
   for (CountsLater* later : counting) later->count_rest_later(assembly);
   return status;
+}
+
+double IterateStep::largest_imbalance() const {
+  if (options_.has_substeps || !options_.until.bounds_residual()) return std::numeric_limits<double>::infinity();
+  return looser_for_balances * options_.until.loosest();
 }
 
 ResidualCheck IterateStep::coupled_residual(const StepTime& step) const {

@@ -52,6 +52,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
   std::string describe() const override { return "iterate"; }
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
+  double largest_imbalance() const override;
   void add_counts(LinearCounts& counts) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
   void accepted() override;

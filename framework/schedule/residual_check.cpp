@@ -40,8 +40,6 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   }
 }
 
-constexpr double looser = 100;  // errors of balances, of one row or of all, may be so many times the tolerance
-
 /// The sizes of the terms of each row of an unknown: (|A| |x|)_i, with the throughput of a balance.
 Vector sizes_of_rows(const Assembly& assembly, int unknown) {
   Vector sizes = assembly.balances().throughput(unknown);
@@ -72,7 +70,7 @@ void check_each_row(const Assembly& assembly, const BlockSystem& system, double 
     const Vector& residual = assembly.residual(unknown);
     double worst = 0;
     for (int row = 0; row < residual.size(); ++row)
-      if (counts[row] && throughput[row] > 0 && std::abs(residual[row]) > looser * tolerance * sizes[row])
+      if (counts[row] && throughput[row] > 0 && std::abs(residual[row]) > looser_for_balances * tolerance * sizes[row])
         worst = std::max(worst, std::abs(residual[row]) / sizes[row]);
     worst = parallel::max(worst);
     if (worst == 0) continue;
@@ -107,7 +105,7 @@ void check_balances(const Assembly& assembly, const BlockSystem& system, double 
     parallel::sum(sums);
     if (sums[throughput] == 0) continue;
     const double error = std::max(sums[rows], std::abs(sums[total]) - sums[noise_of_total]);
-    if (error <= looser * tolerance * sums[throughput]) continue;
+    if (error <= looser_for_balances * tolerance * sums[throughput]) continue;
     check.balances_hold = false;
     for (const int u : quantity.unknowns) check.is_unbalanced[u] = 1;
     const double relative = error / sums[throughput];

@@ -34,6 +34,9 @@ struct ResidualCheck {
   double merit(const ResidualCheck& scales) const;
 };
 
+/// Errors of balances, of one row or of all, may be so many times the tolerance of residuals.
+constexpr double looser_for_balances = 100;
+
 /// An equation is fulfilled when its largest residual is at most `tolerance` times the largest of its terms, or is
 /// round-off of those terms. Every equation is measured by its own terms, so the test needs no scales from the user and
 /// does not depend on units. Where the system puts the sum of balances in the place of one (BlockSystem::use_sums), the

@@ -58,6 +58,13 @@ class ScheduleStep {
   virtual void note_step(Notes& notes, const StepTime& step) const {
     for (const ScheduleStep* child : children()) child->note_step(notes, step);
   }
+  /// The largest error of a balance over its throughput that an accepted step may have; infinite where conditions on
+  /// changes alone end an iteration.
+  virtual double largest_imbalance() const {
+    double largest = 0;
+    for (const ScheduleStep* child : children()) largest = std::max(largest, child->largest_imbalance());
+    return largest;
+  }
   /// One line for the graph and for messages.
   virtual std::string describe() const = 0;
   virtual std::vector<const ScheduleStep*> children() const { return {}; }

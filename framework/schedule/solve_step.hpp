@@ -37,6 +37,7 @@ class SolveStep : public ScheduleStep {
   }
   /// Throws InputError for a stabilization that has no effect.
   void check() const override;
+  double largest_imbalance() const override { return looser_for_balances * options_.newton.residual; }
   std::string describe() const override;
   void add_counts(LinearCounts& counts) const override;
 

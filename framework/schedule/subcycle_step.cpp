@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "framework/assembly/follows_stages.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk {
@@ -80,7 +81,9 @@ StepStatus SubcycleStep::run(const StepTime& step) {
     course.from.push_back(field->accepted());
     course.to.push_back(field->now());
   }
+  let_parts_take_stages(true);
   const auto put_back = [&] {
+    let_parts_take_stages(false);
     SPREKK_ASSERT(start.size() == fields_.size(), start.size(), fields_.size());
     for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->set_accepted(start[i]);
     if (options_.waiting == "held") return;
@@ -99,6 +102,12 @@ StepStatus SubcycleStep::run(const StepTime& step) {
   put_back();
   begin_step(parts_, step);
   return status;
+}
+
+void SubcycleStep::let_parts_take_stages(bool are_stages) {
+  if (scheme_ == TimeScheme::backward_euler) return;  // substeps of a stage around it start where the stage does
+  for (Part* part : parts_)
+    if (auto* follower = dynamic_cast<FollowsStages*>(part)) follower->take_stages(are_stages);
 }
 
 void SubcycleStep::let_wait(const Course& course, const Piece& piece) {

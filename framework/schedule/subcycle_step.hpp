@@ -41,6 +41,7 @@ class SubcycleStep : public ScheduleStep {
   bool solves(const Field& field, const StepTime& step) const override { return inside_->solves(field, step); }
   std::vector<const Field*> solved_first(const StepTime& step) const override { return inside_->solved_first(step); }
   void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
+  double largest_imbalance() const override { return inside_->largest_imbalance(); }
   std::string describe() const override;
   std::vector<const ScheduleStep*> children() const override;
   void note_step(Notes& notes, const StepTime& step) const override { inside_->note_step(notes, step); }
@@ -60,6 +61,8 @@ class SubcycleStep : public ScheduleStep {
   };
   std::vector<Piece> pieces(const StepTime& step) const;
   StepStatus take(const std::vector<Piece>& pieces, const Course& course);
+  /// Tells the parts where the stages of the scheme begin and end (FollowsStages).
+  void let_parts_take_stages(bool are_stages);
   void let_wait(const Course& course, const Piece& piece);
   /// Puts the fields to where they were at the end of this piece in the pass before, moved with the start of the piece.
   void begin_from_last_pass(std::size_t piece, double begin, double end);

@@ -57,8 +57,8 @@ Spec Options::spec() {
              .in_time = true});
   spec.data("fluid_compressibility", fluid_compressibility,
             {.unit = "1/Pa",
-             .range = non_negative(),
-             .doc = "Compressibility of the fluid.",
+             .range = between(0, 100),
+             .doc = "Compressibility of the fluid; at most that of a gas at 0.01 Pa.",
              .source = "c_p of the paper's Eq. 8",
              .required = true,
              .material = true,

@@ -1,0 +1,25 @@
+// Finds conserved amounts that a step has lost.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "framework/assembly/part.hpp"
+
+namespace sprekk {
+
+/// What the equations of a step say of one conserved quantity.
+struct StepAmounts {
+  double moved = 0;      ///< sum of the absolute amounts that were stored, supplied or let out, place by place
+  double round_off = 0;  ///< of the numbers whose differences these amounts are
+};
+
+/// "" or, where a balance is off in a step by more than `tolerance` times what was moved and by more than round-off, a
+/// sentence that says so. This sum is independent of the residuals by which solvers judge themselves: it is made from
+/// what parts have counted. `before`, `after`: the totals at the start and at the end of the step. `amounts_of` is
+/// called for balances whose totals alone do not show that they hold. Collective.
+std::string find_lost_amounts(const std::map<std::string, Balance>& before, const std::map<std::string, Balance>& after,
+                              double tolerance, const std::function<StepAmounts(const std::string&)>& amounts_of);
+
+}  // namespace sprekk
