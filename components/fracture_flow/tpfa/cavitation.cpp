@@ -2,8 +2,9 @@
 //   p >= p_c,  e >= 0,  (p − p_c) e = 0
 // in each cell: the condition of Elrod and Adams (1974) in the form of a complementarity (Giacopini et al., J.
 // Tribology 132, 2010, 041702), and that of the lag at the tip of a hydraulic fracture (Peirce and Detournay, Comput.
-// Methods Appl. Mech. Engrg. 197 (2008) 2858). A cell stores L (a − e): the balance of fluid is that of full cells.
-// Between cells at the bound nothing flows, as their pressures are equal, and what flows into one fills it.
+// Methods Appl. Mech. Engrg. 197 (2008) 2858). A cell holds fluid in a − e of its aperture: the balance of fluid is
+// that of full cells. Between cells at the bound nothing flows, as their pressures are equal, and what flows into one
+// fills it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,11 +30,9 @@ bool FractureFlow::is_partly_empty(int cell) const {
   return empty_ && empty_->now()[cell] > bound_scale_ * (pressure_.now()[cell] - *options_.cavitation);
 }
 
-void FractureFlow::bound_pressure(Assembly& assembly) const {
+void FractureFlow::bound_pressure(Assembly& assembly, const Vector& stored_by_filled) const {
   const int count = mesh_.fracture_cell_count();
-  Vector length(count);
-  for (int i = 0; i < count; ++i) length[i] = mesh_.fracture_cells[i].measure;
-  assembly.diagonal(pressure_, *empty_, -length);
+  assembly.diagonal(pressure_, *empty_, -stored_by_filled);
   if (!assembly.has_row(*empty_)) return;
   Vector residual(count), by_empty(count), by_pressure(count);
   for (int i = 0; i < count; ++i) {

@@ -246,6 +246,12 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
   return kappa;
 }
 
+StoredFluid FractureFlow::stored_fluid(int cell) const {
+  return fracture_flow::stored_fluid(filled_accepted(cell), filled_now(cell),
+                                     pressure_.now()[cell] - pressure_.accepted()[cell], compressibility_[cell],
+                                     entering_density_);
+}
+
 void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assemble_fluxes(assembly, step);
   if (!assembly.has_row(pressure_)) return;
@@ -256,11 +262,10 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   Vector stored(count), capacity(count), stored_by_aperture(count);
   for (int i = 0; i < count; ++i) {
     const double length = mesh_.fracture_cells[i].measure;
-    const double change = pressure_.now()[i] - pressure_.accepted()[i];
-    capacity[i] = length * aperture_.now()[i] * compressibility_[i];
-    stored[i] = length * (filled_now(i) - filled_accepted(i)) + capacity[i] * change;
-    stored_by_aperture[i] = length * (1 + compressibility_[i] * change);
-    if (!is_in_fracture_cell(i)) stored[i] = 0;
+    const StoredFluid fluid_in_cell = stored_fluid(i);
+    capacity[i] = length * fluid_in_cell.by_pressure;
+    stored_by_aperture[i] = length * fluid_in_cell.by_aperture;
+    stored[i] = is_in_fracture_cell(i) ? length * fluid_in_cell.volume : 0;
   }
   // The stored volumes are small differences of large numbers: apertures and pressures.
   double subtracted = 0;
@@ -270,7 +275,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   fluid.store(stored, subtracted);
   assembly.diagonal(pressure_, pressure_, capacity);
   assembly.diagonal(pressure_, aperture_, stored_by_aperture);
-  if (empty_) bound_pressure(assembly);
+  if (empty_) bound_pressure(assembly, stored_by_aperture);
   fluid.supply(step.dt * source_);
 
   std::vector<Triplet> outflow;
@@ -304,9 +309,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
   Vector sums = cumulative_.accepted();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (!is_in_fracture_cell(i)) continue;
-    const double length = mesh_.fracture_cells[i].measure;
-    sums[3 * i] += length * (filled_now(i) - filled_accepted(i)) +
-                   length * aperture_.now()[i] * compressibility_[i] * (pressure_.now()[i] - pressure_.accepted()[i]);
+    sums[3 * i] += mesh_.fracture_cells[i].measure * stored_fluid(i).volume;
     if (!is_prescribed_[i]) sums[3 * i + 1] += step.dt * source_[i];  // else not solved
   }
   for (const Link& link : links_)

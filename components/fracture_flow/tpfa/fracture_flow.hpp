@@ -15,6 +15,8 @@
 #include "components/fracture_flow/tpfa/junction_fluxes.hpp"
 #include "components/fracture_flow/tpfa/mean_along.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
+#include "components/fracture_flow/tpfa/stored_fluid.hpp"
+#include "framework/assembly/follows_stages.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/property.hpp"
@@ -24,8 +26,9 @@ namespace sprekk::fracture_flow {
 
 /// Unknowns: the pressure p of every fracture cell, and the flux Q through every point between them, from its first to
 /// its second cell (m^2/s). Each row of p balances the volume of fluid of one cell over the step (m^2):
-///   L (a − a_old) + L a c_p (p − p_old) + dt (sum of Q out of it) − dt q = 0,
-/// (with `cavitation`, cavitation.cpp, a part of a is empty),
+///   L (rho a − rho_old a_old)/rho_mean + dt (sum of Q out of it) − dt q = 0,
+/// the change of the mass of fluid over the mean density of the step (stored_fluid.hpp; with `cavitation`,
+/// cavitation.cpp, a part of a is empty),
 /// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series
 /// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
 /// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
@@ -37,6 +40,7 @@ class FractureFlow : public Component,
                      public FractureFluid,
                      public FractureFluxes,
                      public BuoyantFractures,
+                     public FollowsStages,
                      public KeepsTotals,
                      public LivesInPart {
  public:
@@ -48,6 +52,9 @@ class FractureFlow : public Component,
   void evaluate_data(const StepTime& step) override;
   /// A bound of the pressure turns active within steps, which leaves no second order.
   bool allows_stages() const override { return !options_.cavitation; }
+  void take_stages(bool are_stages) override {
+    entering_density_ = are_stages ? EnteringDensity::at_end : EnteringDensity::of_step;
+  }
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void set_search_mode(SearchMode mode) override;
@@ -162,12 +169,14 @@ class FractureFlow : public Component,
   void check_names() const;
   /// Cavitation: without it nothing is empty, and these do nothing.
   void check_bound(double pressure, const Origin& where, const std::string& what) const;
-  void bound_pressure(Assembly& assembly) const;
+  /// `stored_by_filled`: the derivative of what each cell stores by the part of its aperture with fluid.
+  void bound_pressure(Assembly& assembly, const Vector& stored_by_filled) const;
   bool is_partly_empty(int cell) const;
   double filled_now(int cell) const { return aperture_.now()[cell] - (empty_ ? empty_->now()[cell] : 0); }  ///< m
   double filled_accepted(int cell) const {
     return aperture_.accepted()[cell] - (empty_ ? empty_->accepted()[cell] : 0);
   }
+  StoredFluid stored_fluid(int cell) const;  ///< in this step, m
   std::vector<int> cells_of(const FracturePlace& where) const;
   /// The cells that an injection at a place goes into, and their shares, which add up to 1.
   std::vector<std::pair<int, double>> shares_of(const FracturePlace& where) const;
@@ -213,7 +222,8 @@ class FractureFlow : public Component,
   std::vector<Prescribed> prescribed_;
   mutable std::vector<double> let_in_;  ///< m^2/s, at each of prescribed_; found when their rows are replaced
   double step_length_ = 0;              ///< s
-  std::vector<char> is_prescribed_;     ///< of each cell
+  EnteringDensity entering_density_ = EnteringDensity::of_step;
+  std::vector<char> is_prescribed_;  ///< of each cell
 };
 
 }  // namespace sprekk::fracture_flow
