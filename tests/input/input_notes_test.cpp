@@ -202,6 +202,13 @@ INSTANTIATE_TEST_SUITE_P(
                "geometry.fractures.crack.points=[[0 m, 0.5 m], [1 m, 0.5 m]]",
                "components.conduit.boundary.left={pressure: 0 Pa}"},
               ""},
+        Input{"fractured.yaml",
+              {"components.heat={type: matrix_heat/mpfa, conductivity: 2 W/(m*K), heat_capacity: 2e6 J/(m^3*K)}",
+               "couplers=[" + all_but_aperture +
+                   ", {type: aperture, between: [contact, conduit]}, {type: wall_traction, between: [rock, contact, "
+                   "conduit]}, {type: thermal_stress, between: [heat, rock], expansion: 8e-6 1/K}]",
+               "schedule=[{solve: heat}, {solve: [pore, rock, conduit, contact]}]"},
+              "the fluid of 'pore' keeps its volume when it is warmed"},
         Input{"fractured.yaml", {}, ""}));
 
 TEST(InputNotesOfARun, InjectionIntoAPrescribedPressureIsNotCounted) {
