@@ -70,6 +70,17 @@ def networks(instant):
     return joined
 
 
+def compressed(p, before, aperture, change):
+    """m, for each metre of a fracture: what it stores beside its opening, from the apertures and the change of pressure in a step.
+    Fluid of the density exp(c p): int a c dp where aperture and pressure rise or fall together, else what leaves rho a as it is
+    where nothing enters."""
+    rise = p["compressibility"] * change
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean_of_density = np.where(rise == 0, 1.0, np.expm1(rise) / rise)
+    held = (np.exp(rise) * aperture - before) / mean_of_density - (aperture - before)
+    return np.where((aperture - before) * rise > 0, rise * (aperture + before) / 2, held)
+
+
 def fracture_mass(p, instants, main, brought=None):
     """`main`: the number of the fracture that has the wells; or `brought`, a function (start, stop, cells) -> m^2 that wells
     bring into these cells, and without regard to their sign: two may exchange any multiple of what a fracture stores, and a rate has its
@@ -88,7 +99,7 @@ def fracture_mass(p, instants, main, brought=None):
             plus, minus = (step * length * walls[f"pore.wall_flux.{side}[m/s]"] for side in ("plus", "minus"))
             out = plus + minus
             opened = length * (aperture - before[1])
-            pressed = length * aperture * p["compressibility"] * (pressure - before[2])
+            pressed = length * compressed(p, before[1], aperture, pressure - before[2])
             fracture = networks(instant)
             for number in np.unique(fracture):
                 own = fracture == number

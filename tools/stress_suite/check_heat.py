@@ -46,7 +46,8 @@ def held(p, instants):
         aperture, pressure = instant.on_fractures("conduit.aperture", "m"), instant.on_fractures("conduit.pressure", "Pa")
         if apart is None:
             apart = {"aperture": np.full(len(length), p["aperture"]), "pressure": np.full(len(length), p["initial"]), "fluid": 0.0}
-        apart["fluid"] = apart["fluid"] + length * (aperture - apart["aperture"] + aperture * p["compressibility"] * (pressure - apart["pressure"]))
+        stored = aperture - apart["aperture"] + check_balance.compressed(p, apart["aperture"], aperture, pressure - apart["pressure"])
+        apart["fluid"] = apart["fluid"] + length * stored
         apart.update(aperture=aperture, pressure=pressure)
         area = check_balance.cell_areas(instant.matrix)
         rock, water = instant.cell("heat.temperature[K]"), instant.on_fractures("water.temperature", "K")
