@@ -5,6 +5,7 @@
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "couplers/contacts.hpp"
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/follows_waiting.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
@@ -25,7 +26,7 @@ struct ApertureOptions {
 /// Determines the aperture. Where the flow is solved while the walls wait, the aperture would stay whatever the
 /// pressure is, and fluid that cannot leave an open fracture would get a pressure of any size: with the stabilization
 /// fixed_stress the aperture follows the pressure as the walls do.
-class Aperture : public Coupler, public FollowsWaiting {
+class Aperture : public Coupler, public FollowsWaiting, public CountsAmounts {
  public:
   Aperture(const CouplerContext& context, const ApertureOptions&)
       : Coupler(context.name), mesh_(context.mesh), contacts_(context), fluid_(context.the<FractureFluid>()) {
@@ -74,6 +75,12 @@ class Aperture : public Coupler, public FollowsWaiting {
     assembly.diagonal(aperture, aperture, Vector::Ones(aperture.size()));
     assembly.add(aperture, -fluid_.initial_aperture());
     for (FractureContact* contact : contacts_) assembly.linear(aperture, normal_, contact->jump(), -1);
+  }
+
+  /// Fluid that was held while walls have opened or closed fills what they leave.
+  void count_amounts_from_here(const SettledFields& settled) override {
+    if (settled.contain(fluid_.aperture())) return;
+    fluid_.aperture().set_both(fluid_.initial_aperture() + normal_.entries() * contacts_.jump());
   }
 
   /// Cells in the place of a replaced one share its opening as the contact has shared its jump, not evenly: otherwise

@@ -42,7 +42,7 @@ namespace {
 class Biot : public Coupler,
              public StabilizesPreconditioner,
              public KeepsTotals,
-             public CountsFromHere,
+             public CountsAmounts,
              public CountsLater,
              public HoldsAmounts {
  public:
@@ -168,8 +168,8 @@ class Biot : public Coupler,
   }
 
   /// Where displacements are zero, any change of volume is round-off.
-  void count_from_here() override {
-    if (decoupled_ || options_.one_way) return;
+  void count_amounts_from_here(const SettledFields& settled) override {
+    if (decoupled_ || options_.one_way || settled.fields.empty()) return;
     Vector volume = rock_.volume_change().now();
     replicate(mesh_, Location::cell, 1, volume);
     counted_volume_.set_both(std::move(volume));

@@ -5,7 +5,9 @@
 #include "components/capabilities/matrix_border.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -39,7 +41,7 @@ struct BorderExchangeOptions {
 ///
 /// `exchanged` has the amounts that the first flow has let into cells of the second, `counted` what the second has
 /// counted of them. So nothing is lost when the two are solved one after the other, or one of them in substeps.
-class BorderExchange : public Coupler {
+class BorderExchange : public Coupler, public CountsAmounts, public RestsTogether {
  public:
   BorderExchange(const CouplerContext& context, const BorderExchangeOptions& options)
       : Coupler(context.name), mesh_(context.mesh), switch_times_(options.resistance.switch_times()) {
@@ -100,6 +102,15 @@ class BorderExchange : public Coupler {
   void accepted() override {
     exchanged_->set_both(exchanged_->accepted() - counted_->accepted());
     counted_->set_both(Vector::Zero(counted_->size()));
+  }
+
+  void count_amounts_from_here(const SettledFields&) override {
+    for (Field* amount : {exchanged_, counted_}) amount->set_both(Vector::Zero(amount->size()));
+  }
+
+  std::vector<Dependence> dependences_at_rest() const override {
+    const std::string &first = pressures_[0]->spec().owner, &second = pressures_[1]->spec().owner;
+    return {{second, first, "what crosses the border is an unknown of '" + first + "', which would be held"}};
   }
 
   /// What the first flow has let out and the second has not counted yet is stored in neither.

@@ -67,12 +67,13 @@ class MatrixExchange : public Coupler {
     used_ = {exchange_.version(), step.dt};
   }
 
-  void assemble(Assembly& assembly, const StepTime&) const override {
+  void assemble(Assembly& assembly, const StepTime& step) const override {
+    const double longer = step.dt / used_.second;  // not 1 while the start is settled
     for (const int side : {0, 1}) {
       const Field& row = *pressures_[side];
       if (!assembly.has_row(row)) continue;
       for (const int column : {0, 1})
-        assembly.linear(row, of_difference_, *pressures_[column], side == column ? 1 : -1);
+        assembly.linear(row, of_difference_, *pressures_[column], side == column ? longer : -longer);
     }
   }
 

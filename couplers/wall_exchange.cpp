@@ -6,6 +6,8 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/scene/registry.hpp"
@@ -31,7 +33,7 @@ struct WallExchangeOptions {
 ///
 /// `exchanged` has the amount that the matrix has received through each wall, `counted` the part of it that the
 /// fracture has counted. So nothing is lost when the two are solved one after the other, or one of them in substeps.
-class WallExchange : public Coupler {
+class WallExchange : public Coupler, public CountsAmounts, public RestsTogether {
  public:
   WallExchange(const CouplerContext& context, const WallExchangeOptions&)
       : Coupler(context.name),
@@ -141,6 +143,16 @@ class WallExchange : public Coupler {
   void accepted() override {
     exchanged_.set_both(exchanged_.accepted() - counted_.accepted());
     counted_.set_both(Vector::Zero(counted_.size()));
+  }
+
+  void count_amounts_from_here(const SettledFields&) override {
+    for (Field* amount : {&exchanged_, &counted_}) amount->set_both(Vector::Zero(amount->size()));
+  }
+
+  std::vector<Dependence> dependences_at_rest() const override {
+    const std::string& matrix = walls_.wall_flux().spec().owner;
+    return {{fracture_.pressure().spec().owner, matrix,
+             "what flows through the walls is an unknown of '" + matrix + "', which would be held"}};
   }
 
   /// The amount that the matrix has received and the fracture has not counted yet is stored in both: it is subtracted.

@@ -9,7 +9,9 @@
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
 #include "couplers/contacts.hpp"
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/network_shape.hpp"
@@ -38,10 +40,20 @@ struct WallTractionOptions {
   }
 };
 
+Tensor tensor_of(const SymmetricTensor& components) {
+  Tensor tensor = components.head<dimension>().asDiagonal();
+  int next = dimension;
+  for (int i = 0; i < dimension; ++i)
+    for (int j = i + 1; j < dimension; ++j) tensor(i, j) = tensor(j, i) = components[next++];
+  return tensor;
+}
+
 /// Determines the wall traction T = f − alpha_i p_i n and the jump of the contact (Eqs. 4 and 1 of the paper). The rows
 /// of T are multiplied by the compliance of the walls, and are then jumps (m), which a linear solver can distinguish
 /// from zero.
-class WallTraction : public Coupler {
+///
+/// At the start walls have the tractions of the initial stress sigma_0, and the jumps under these.
+class WallTraction : public Coupler, public RestsTogether, public CountsFromHere {
  public:
   WallTraction(const CouplerContext& context, const WallTractionOptions& options)
       : Coupler(context.name),
@@ -93,6 +105,22 @@ class WallTraction : public Coupler {
                              "while the rock is held so is the jump, and walls that stick may then have any traction",
                              true});
     return dependences;
+  }
+
+  std::vector<Dependence> dependences_at_rest() const override {
+    std::vector<Dependence> dependences;
+    for (FractureContact* contact : contacts_)
+      dependences.push_back({rock_.wall_traction().spec().owner, contact->traction().spec().owner,
+                             "the tractions of the contact would be held, and walls would part or overlap"});
+    return dependences;
+  }
+
+  /// Where the rock was not settled with them, walls have the tractions of its initial stress.
+  void count_from_here(const SettledFields& settled) override {
+    if (settled.contain(rock_.wall_traction())) return;
+    const bool is_of_fluid = fluid_ && settled.contain(fluid_->pressure());
+    if (!settled.fields.empty() && !is_of_fluid) return;
+    load_with_initial_stress(settled.fields.empty() ? Reference::initial : Reference::settled);
   }
 
   bool allows_stages() const override { return true; }
@@ -157,6 +185,7 @@ class WallTraction : public Coupler {
   }
 
  private:
+  enum class Reference { initial, settled };
   /// 1 for each value of a fracture cell that the contact is on, 0 elsewhere.
   Vector cells_of(const FractureContact& contact) const {
     Vector flags = Vector::Zero(dimension * mesh_.fracture_cell_count());
@@ -179,6 +208,48 @@ class WallTraction : public Coupler {
                           "(while all of its walls are open nothing holds such a part, and a step may fail with a "
                           "singular system) give the rock an initial_stress that balances the loads",
                           enclosed.size(), to_text(enclosed.front().center)));
+  }
+
+  /// T = sigma_0 n on the plus wall, and f = T + alpha_i p_i n. Nothing for rock without stress.
+  void load_with_initial_stress(Reference reference) {
+    if (!stressed_rock_) return;
+    const Vector of_rock = initial_tractions();
+    if (of_rock.isZero(0)) return;
+    Vector jumps = Vector::Zero(of_rock.size());
+    std::vector<Vector> of_contacts(on_cells_.size(), Vector::Zero(of_rock.size()));
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+      const double fluid = fluid_ ? alpha_[i] * fluid_->pressure().now()[i] : 0;
+      std::size_t k = 0;
+      for (FractureContact* contact : contacts_) {
+        Vector& tractions = of_contacts[k++];
+        if (!contact->is_on_fracture_cell(i)) continue;
+        auto own = tractions.segment<dimension>(dimension * i);
+        own = of_rock.segment<dimension>(dimension * i);
+        own[0] += fluid;
+        jumps[dimension * i] = contact->opening_under(i, std::min(0.0, own[0]));
+      }
+    }
+    rock_.wall_traction().set_both(of_rock);
+    std::size_t k = 0;
+    for (FractureContact* contact : contacts_) {
+      const Vector& here = on_cells_[k];
+      contact->traction().set_both(std::move(of_contacts[k++]));
+      contact->jump().set_both(here.size() > 0 ? Vector(here.cwiseProduct(jumps)) : jumps);
+    }
+    // Settled ones may take the place of others.
+    if (!contacts_.empty() && (reference == Reference::settled || !jumps.isZero(0))) rock_.count_jumps_from(jumps);
+  }
+
+  /// sigma_0 n on the plus walls, Pa, (normal, tangential) of each fracture cell.
+  Vector initial_tractions() const {
+    Vector tractions(dimension * mesh_.fracture_cell_count());
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+      const FractureCell& cell = mesh_.fracture_cells[i];
+      const SymmetricTensor stress =
+          stressed_rock_->initial_stress(mesh_.face_cells[cell.faces[0]][0], mesh_.face_center[cell.faces[0]]);
+      tractions.segment<dimension>(dimension * i) = cell.to_local(tensor_of(stress) * cell.normal);
+    }
+    return tractions;
   }
 
   /// The shear modulus of the rock beside each fracture cell, Pa: twice that of both sides in series. Nothing where

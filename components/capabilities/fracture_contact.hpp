@@ -40,6 +40,9 @@ class FractureContact {
   virtual bool needs_shear_modulus() const { return false; }
   /// The shear modulus of the rock beside each fracture cell, Pa.
   virtual void set_shear_modulus(const Vector& /*modulus*/) {}
+  /// The opening of a cell whose walls touch under a normal traction (Pa) and have not slid, m: negative where they
+  /// close under pressure.
+  virtual double opening_under(int /*cell*/, double /*normal_traction*/) const { return 0; }
   /// The law of a cell whose walls slide or are open, or have slid and rest; nothing while they stick.
   virtual std::optional<SlidingWalls> sliding(int cell) const = 0;
 };

@@ -38,6 +38,9 @@ class RockWalls {
   virtual Field& wall_traction() = 0;
   /// u(minus) − u(plus) (Eq. 1 of the paper), m, (normal, tangential) of each fracture cell.
   virtual const LinearExpression& displacement_jump() const = 0;
+  /// The jumps of walls while the displacement is zero, m, as displacement_jump(): none unless this is called, while
+  /// the scene is built or before the first step.
+  virtual void count_jumps_from(const Vector& jumps) = 0;
   /// Why the jumps of the cells at a tip have an error that does not vanish on finer meshes; empty where they are
   /// right.
   virtual std::string flaw_of_jumps() const { return {}; }

@@ -22,6 +22,7 @@
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
+#include "framework/mesh/planar.hpp"
 #include "framework/scene/fracture_set.hpp"
 
 namespace sprekk::contact {
@@ -30,6 +31,7 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
                                      double stiffness_factor)
     : Component(context.name),
       mesh_(context.mesh),
+      origin_(context.origin),
       traction_(add_traction(context, options.depends_on_rate ? Friction::of_rate : Friction::of_path)),
       jump_(add_jump(context, options.depends_on_rate ? Friction::of_rate : Friction::of_path)),
       options_(std::make_unique<Options>(options)),
@@ -64,6 +66,11 @@ double FrictionalContact::closure(double normal_traction) const {
 
 double FrictionalContact::closure_by_traction(double normal_traction) const {
   return closure_ ? -closure_->at(-normal_traction).by_pressure : 0.0;
+}
+
+double FrictionalContact::opening_under(int cell, double normal_traction) const {
+  // A fracture that grows has no walls before that could have closed.
+  return mesh_.fracture_cells[cell].grown ? 0.0 : -closure(normal_traction);
 }
 
 void FrictionalContact::evaluate_data(const StepTime& step) {
@@ -329,7 +336,15 @@ void FrictionalContact::output(std::vector<OutputField>& fields) const {
   if (rate_and_state_) rate_and_state_->output(fields);
 }
 
-void FrictionalContact::count_from_here() {
+void FrictionalContact::require_countable() const {
+  if (rate_and_state_)
+    throw InputError(origin_, "the walls of '" + name() + "' have no state at rest",
+                     "friction of rate and state lets them creep under any load",
+                     "give the rock its stress by 'initial_stress', and remove 'settle'");
+}
+
+void FrictionalContact::count_from_here(const SettledFields& settled) {
+  if (!settled.contain(jump_)) return;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     slip_at_start_ = std::max(slip_at_start_, tangential(jump_.now(), i).norm());
 }
@@ -353,6 +368,41 @@ std::string FrictionalContact::loss_of_one_stage() const {
   return "recurrence times and peak slip rates of '" + name() +
          "' are of first order in 'state_change' (0.6 % and 8 % too small in the cycle of a spring-slider at 0.1, "
          "against 5e-6 and 3e-4)";
+}
+
+void FrictionalContact::note_start(Notes& notes) const {
+  int cells = 0, worst = none;
+  double most = 0;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    constexpr double small = 1e-2;  // of the traction
+    const double beyond = is_on_fracture_cell(i) ? excess(i) : 0;
+    if (beyond <= small * traction_.now().segment<dimension>(dimension * i).norm()) continue;
+    ++cells;
+    if (beyond > most) {
+      most = beyond;
+      worst = i;
+    }
+  }
+  if (cells == 0) return;
+  constexpr double mega = 1e6;
+  const Point traction = traction_.now().segment<dimension>(dimension * worst);
+  const bool parts = traction[0] > 0;
+  notes.add(name() + " out of balance at the start",
+            fmt::format("{} cells of '{}' {} under the initial stress: at {} their traction is {:.3g} MPa across and "
+                        "{:.3g} MPa along them, by {:.3g} MPa more than they hold (they move at once, in the first "
+                        "step) let 'start: settle' find the equilibrium, or change the initial stress, the pressure or "
+                        "the friction",
+                        cells, name(), parts ? "part" : "slide", to_text(mesh_.fracture_cells[worst].center),
+                        traction[0] / mega, traction.tail<dimension - 1>().norm() / mega, most / mega),
+            most);
+}
+
+double FrictionalContact::excess(int i) const {
+  const Strength strength = trial(i).strength;
+  const Point traction = traction_.now().segment<dimension>(dimension * i);
+  if (traction[0] > strength.tension) return traction[0] - strength.tension;
+  if (rate_and_state_) return 0;  // such walls slide under any shear
+  return traction.tail<dimension - 1>().norm() - strength.cohesion - strength.friction * std::max(0.0, -traction[0]);
 }
 
 void FrictionalContact::note_input(Notes& notes) const {

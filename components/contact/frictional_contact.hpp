@@ -15,6 +15,7 @@
 #include "framework/assembly/gains_from_stages.hpp"
 #include "framework/assembly/iterate_dependent.hpp"
 #include "framework/assembly/lives_in_part.hpp"
+#include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/limits_step.hpp"
@@ -63,6 +64,7 @@ class FrictionalContact : public Component,
                           public FractureContact,
                           public IterateDependent,
                           public CountsFromHere,
+                          public NotesStart,
                           public GainsFromStages,
                           public LivesInPart,
                           public LimitsStep {
@@ -82,8 +84,10 @@ class FrictionalContact : public Component,
   /// friction would not be undone.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
+  /// Throws InputError for friction that depends on the slip rate: such walls creep under any load.
+  void require_countable() const override;
   /// Jumps are not reset, since friction and dilation depend on them; a note tells of walls that have slid.
-  void count_from_here() override;
+  void count_from_here(const SettledFields& settled) override;
   void observe_iterate(const std::vector<Field*>& unknowns) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
@@ -102,6 +106,8 @@ class FrictionalContact : public Component,
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
+  /// Tells of walls that slide or part in the first step, under the initial stress alone.
+  void note_start(Notes& notes) const override;
   std::string loss_of_one_stage() const override;
   void note_step(Notes& notes, const StepTime& step) const override;
   void accepted() override;
@@ -115,6 +121,7 @@ class FrictionalContact : public Component,
   const std::vector<char>& inhabited_cells() const override { return here_; }
   bool lives_on_fractures() const override { return true; }
   Field& jump() override { return jump_; }
+  double opening_under(int cell, double normal_traction) const override;
   /// The tangential stiffness of a cell is replaced by that of its whole fracture: slip of all cells together meets a
   /// stiffness that is smaller by the ratio of the length of the cell to that of the fracture. When a load decreases,
   /// the derivatives of slip make all cells of a fracture slide back at once. With the stiffness of single cells the
@@ -152,6 +159,8 @@ class FrictionalContact : public Component,
   double closure_by_traction(double normal_traction) const;  ///< its derivative, m/Pa
   double gap(int cell, const Vector& traction, const Vector& jump) const;
   double pressure_beside(int cell) const;
+  /// By how much the traction exceeds what the walls hold, Pa; negative where they hold it.
+  double excess(int cell) const;
   /// mu_d; that of the start where friction does not weaken.
   double dynamic_friction(int cell) const;
   /// The path q of slip and opening at the end of the step, m, with the gap of the cell then.
@@ -171,6 +180,7 @@ class FrictionalContact : public Component,
   Trial trial_of_update(int cell) const;
 
   const Mesh& mesh_;
+  Origin origin_;
   Field& traction_;
   Field& jump_;
   Field* path_ = nullptr;  ///< q, m; null without weakening

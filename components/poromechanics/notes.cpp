@@ -8,6 +8,7 @@
 
 #include "components/poromechanics/check_conditions.hpp"
 #include "components/poromechanics/rock.hpp"
+#include "components/poromechanics/start_balance.hpp"
 #include "framework/mesh/planar.hpp"
 
 namespace sprekk::poromechanics {
@@ -80,6 +81,10 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
 }
 
 void Rock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
+
+void Rock::note_start(Notes& notes) const {
+  note_start_imbalance(notes, options_, mesh_, name(), evaluated_for_.start);
+}
 
 void note_large_strain(Notes& notes, const std::string& name, const LargestStrain& largest, const Options& options,
                        const std::vector<Stiffness>& stiffness) {

@@ -84,8 +84,16 @@ void Rock::settled(const MeshChange& change) {
   apply_boundary();
 }
 
-void Rock::count_from_here() {
+void Rock::count_from_here(const SettledFields& settled) {
+  if (settled.fields.empty()) return;
   SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
+  if (settled.contain(displacement_)) count_from_equilibrium();
+  count_loads_from_here(settled, displacement_, loads_);
+  data_evaluated_ = false;
+  begin_step(StepTime(evaluated_for_));
+}
+
+void Rock::count_from_equilibrium() {
   SettledRock settled;
   settled.forces = face_forces();
   replicate(mesh_, Location::face, dimension, settled.forces);
@@ -95,21 +103,29 @@ void Rock::count_from_here() {
     for (int k = 0; k < dimension; ++k)
       if (conditions_[f][k] != MechanicalCondition::displacement) settled.displacements[dimension * f + k] = 0;
   if (wall_traction_) {
-    settled.jumps = jump_.now();
-    replicate(mesh_, Location::fracture_cell, dimension, settled.jumps);
+    jumps_ = jump_.now();
+    replicate(mesh_, Location::fracture_cell, dimension, jumps_);
   }
   settled_ = std::move(settled);
   displacement_.set_both(Vector::Zero(displacement_.size()));
-  data_evaluated_ = false;
-  begin_step(StepTime(evaluated_for_));
+}
+
+void Rock::count_jumps_from(const Vector& jumps) {
+  SPREKK_EXPECT(wall_traction_ && jumps.size() == wall_traction_->size(), jumps.size());
+  jumps_ = jumps;
+  boundary_applied_ = false;
 }
 
 void Rock::save(std::map<std::string, Vector>& state) const {
   if (settled_) settled_->save(name(), state);
+  save_loads(name(), loads_, state);
+  if (jumps_.size() > 0) state[key_of_jumps(name())] = jumps_;
 }
 
 void Rock::restore(const std::map<std::string, Vector>& state) {
   settled_ = SettledRock::restored(name(), state);
+  restore_loads(name(), loads_, state);
+  if (const auto kept = state.find(key_of_jumps(name())); kept != state.end()) jumps_ = kept->second;
   data_evaluated_ = false;
 }
 

@@ -12,6 +12,7 @@
 #include "components/poromechanics/settled_rock.hpp"
 #include "components/poromechanics/stress_discretization.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/notes_start.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::poromechanics {
@@ -26,7 +27,8 @@ class Rock : public Component,
              public RockWalls,
              public RockState,
              public RockStress,
-             public CountsFromHere {
+             public CountsFromHere,
+             public NotesStart {
  public:
   /// Throws InputError for sides that do not exist, for a stiffness that is not positive definite, and when the
   /// displacements that are prescribed let the rock move as a rigid body.
@@ -38,13 +40,14 @@ class Rock : public Component,
   /// Discretizes on the new mesh; the unchanged part of the discretization of `before` is kept.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
-  void count_from_here() override;
-  bool has_settled_reference() const override { return settled_.has_value(); }
+  void count_from_here(const SettledFields& settled) override;
+  bool has_settled_reference() const override { return settled_ || has_settled_loads(loads_); }
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
+  void note_start(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
   std::vector<double> switch_times() const override;
   std::map<std::string, long> counts() const override {
@@ -60,6 +63,7 @@ class Rock : public Component,
   const Property& bulk_modulus() const override { return stiffness_.bulk_modulus(); }
   Field& wall_traction() override { return *wall_traction_; }
   const LinearExpression& displacement_jump() const override { return jump_; }
+  void count_jumps_from(const Vector& jumps) override;
 
   const Field& displacement() const override { return displacement_; }
   Vector outer_displacement() const override;
@@ -95,6 +99,7 @@ class Rock : public Component,
   /// Updates the matrices of momentum rows and walls after the operators have changed.
   void use_operators();
   void use_loads();
+  void count_from_equilibrium();
   void map_walls();
   void apply_boundary();
   /// Tractions, and what is left on the walls beside them, Pa, (normal, tangential) of each fracture cell.
@@ -119,6 +124,7 @@ class Rock : public Component,
   Field* wall_remainder_ = nullptr;  ///< exists with fractures only
   RockStiffness stiffness_;
   std::optional<SettledRock> settled_;  ///< the state from which displacements are counted, if it was settled
+  Vector jumps_;                        ///< m, of walls while u = 0; empty where they are zero
   std::uint64_t used_excavation_ = 0;
   std::vector<Load> loads_;
 

@@ -106,10 +106,10 @@ void Rock::apply_boundary() {
   if (wall_remainder_) values += wall_forces_ * wall_remainder_->now();
   volume_change_.constant = operators_.volume_boundary * values;
   if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * values);
-  if (wall_traction_ && settled_)
+  if (jumps_.size() > 0)
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
       if (is_owned(mesh_, Location::fracture_cell, i))
-        jump_.constant.segment<dimension>(dimension * i) += settled_->jumps.segment<dimension>(dimension * i);
+        jump_.constant.segment<dimension>(dimension * i) += jumps_.segment<dimension>(dimension * i);
   for (const Load& load : loads_) {
     const Vector reference = load.alpha.cwiseProduct(load.reference);
     force_constant_ -= load.force_on_cell.entries() * load.reference;

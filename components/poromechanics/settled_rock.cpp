@@ -9,8 +9,7 @@ struct Named {
 };
 constexpr Named named[] = {{".settled.forces", &SettledRock::forces},
                            {".settled.stress", &SettledRock::stress},
-                           {".settled.displacements", &SettledRock::displacements},
-                           {".settled.jumps", &SettledRock::jumps}};
+                           {".settled.displacements", &SettledRock::displacements}};
 
 }  // namespace
 

@@ -14,12 +14,14 @@ struct SettledRock {
   Vector forces;         ///< total forces on faces, N/m, (x, y); or those of the stress of each cell (FemRock)
   Vector stress;         ///< total stress of each cell, Pa, (xx, yy, xy)
   Vector displacements;  ///< m, prescribed displacements, counted from the state before
-  Vector jumps;          ///< m, (normal, tangential) of each fracture cell
 
   /// The state as named values of the component `name`, for checkpoints.
   void save(const std::string& name, std::map<std::string, Vector>& state) const;
   /// Nothing where a checkpoint does not have these values.
   static std::optional<SettledRock> restored(const std::string& name, const std::map<std::string, Vector>& state);
 };
+
+/// The name in checkpoints of the jumps that walls have while u = 0.
+inline std::string key_of_jumps(const std::string& name) { return name + ".jumps_at_rest"; }
 
 }  // namespace sprekk::poromechanics

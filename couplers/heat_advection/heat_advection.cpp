@@ -10,6 +10,7 @@
 #include "couplers/heat_advection/options.hpp"
 #include "couplers/heat_advection/streams.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -24,7 +25,7 @@ namespace {
 ///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)),
 /// so that a uniform temperature stays uniform whatever the fluxes are, and nothing is lost or made: heat is conserved
 /// in each schedule, also where the streams are those of a flow that is solved before or after.
-class HeatAdvection : public Coupler, public KeepsTotals {
+class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
  public:
   HeatAdvection(const CouplerContext& context, const HeatAdvectionOptions& options)
       : Coupler(context.name),
@@ -94,7 +95,6 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     };
     if (std::ranges::any_of(flow_fields(), has)) {
       has_flowed_ = true;
-      starts_from_state_ = starts_from_state_ || step.end <= start_;  // it is settled
     }
     if (held_flux_ && has(&flow_in_rock_->pressure())) held_flux_->take();
     if (!has_flowed_) return;
@@ -123,6 +123,14 @@ class HeatAdvection : public Coupler, public KeepsTotals {
     starts_from_state_ = true;
     for (const CarriedHeat* place : {&rock_, &fractures_})
       if (place->temperature) place->cumulative->set_both(Vector::Zero(place->cumulative->size()));
+  }
+
+  /// The heat capacity of cells is that with the fluid that they have in the settled state.
+  void count_amounts_from_here(const SettledFields& settled) override {
+    starts_from_state_ =
+        std::ranges::any_of(flow_fields(), [&](const Field* field) { return settled.contain(*field); });
+    for (const CarriedHeat* place : {&rock_, &fractures_})
+      if (place->temperature) place->received->set_both(Vector::Zero(place->received->size()));
   }
 
   void balance(std::map<std::string, Balance>& balances) const override {

@@ -8,7 +8,10 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
+#include "framework/assembly/notes_start.hpp"
+#include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
@@ -49,7 +52,7 @@ auto refusing_bad_data(const Build& build) {
 
 }  // namespace
 
-Model::Model(const Scene& scene, IterationLog log) : Model(scene, make_mesh(scene), std::move(log)) {}
+Model::Model(const Scene& scene, IterationLog log) : Model(scene, make_mesh(scene), std::move(log)) { note_start(); }
 
 Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), mesh_(std::move(mesh)) {
   expect_sound(mesh_);
@@ -83,6 +86,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   now_doing("the first evaluation of all data");
   check_determined();
   refusing_bad_data([this] { check_data(); });
+  count_from_here({});  // the initial values
   schedule_->check();
   check_stages();
   check_constant_modes();
@@ -116,17 +120,19 @@ void Model::make_start(const ScheduleContext& context) {
     throw InputError(start.origin, "the state at the start is not settled in a scene whose fractures grow",
                      "a mesh that has changed does not know the state from which changes are counted",
                      "remove 'settle', or the 'grow' step");
-  bool counts = false;
-  for (const std::string& name : start.settle)
-    if (const auto* part = dynamic_cast<const CountsFromHere*>(context.named.at(name))) {
-      part->require_countable();
-      counts = true;
-    }
-  if (!counts)
-    throw InputError(
-        start.origin, "'settle' names no component that counts from a reference",
-        "none of them has unknowns that are counted from the state at the start",
-        "name the component whose changes are to be counted from there, with what it cannot be solved without");
+  const auto is_settled = [&](const std::string& name) { return std::ranges::count(start.settle, name) > 0; };
+  for (const std::string& name : start.settle) {
+    if (const auto* part = dynamic_cast<const CountsFromHere*>(context.named.at(name))) part->require_countable();
+    if (context.solved_fields({name}).empty())
+      throw InputError(start.origin, "'" + name + "' cannot be settled", "it has no unknowns",
+                       "remove it from 'settle'");
+  }
+  for (const Part* part : parts_)
+    if (const auto* rests = dynamic_cast<const RestsTogether*>(part))
+      for (const Dependence& dependence : rests->dependences_at_rest())
+        if (is_settled(dependence.component) && !is_settled(dependence.on))
+          throw InputError(start.origin, "'" + dependence.component + "' is settled without '" + dependence.on + "'",
+                           dependence.because, "name both in 'settle'");
   SolveOptions options;
   options.components = start.settle;
   options.origin = start.origin;
@@ -137,17 +143,54 @@ void Model::make_start(const ScheduleContext& context) {
   settle_ = std::make_unique<SolveStep>(options, quiet);
 }
 
+namespace {
+
+/// Turns the status into "not converged" where a value grows with the time, however small the rate: then there is no
+/// state at rest.
+void refuse_growth(const std::vector<const Field*>& settled, StepStatus& status) {
+  constexpr double without_end = 1e12;  // in the unit of the field, or of its largest value before
+  for (const Field* field : settled) {
+    if (field->size() == 0) continue;
+    const double before = parallel::max(field->accepted().lpNorm<Eigen::Infinity>());
+    if (parallel::max(field->now().lpNorm<Eigen::Infinity>()) <= without_end * std::max(1.0, before)) continue;
+    status.converged = false;
+    status.reason = field->name() + " grows without end: what is brought in has no way out";
+    return;
+  }
+}
+
+}  // namespace
+
 StepStatus Model::settle_start() {
   if (!settle_) return {true, "", 0};
   now_doing("settling the state at the start");
-  const StepTime at_start{scene_.time.start, scene_.time.step, scene_.time.start};
-  begin_step(parts_, at_start);
-  StepStatus status = settle_->run(at_start);
+  // What depends on the length of steps is that of the first one: the state rests in the equations of the run.
+  const StepTime first{scene_.time.start, scene_.time.step, scene_.time.start};
+  begin_step(parts_, first);
+  constexpr double forever = 1e30;  // s
+  StepStatus status = settle_->run({first.start, forever, first.end});
+  if (status.converged) refuse_growth(settle_->unknowns(), status);
   if (!status.converged) return status;
   for (Part* part : parts_)
-    if (auto* counts = dynamic_cast<CountsFromHere*>(part)) counts->count_from_here();
+    if (auto* totals = dynamic_cast<KeepsTotals*>(part)) totals->begin_totals();
+  count_from_here({settle_->unknowns()});
   accept();
   return status;
+}
+
+void Model::note_start() {
+  if (scene_.start.from) return;
+  for (const auto& component : components_) {
+    const auto* notes = dynamic_cast<const NotesStart*>(component.get());
+    if (notes && std::ranges::count(scene_.start.settle, component->name()) == 0) notes->note_start(scene_.notes);
+  }
+}
+
+void Model::count_from_here(const SettledFields& settled) {
+  for (Part* part : parts_)
+    if (auto* counts = dynamic_cast<CountsFromHere*>(part)) counts->count_from_here(settled);
+  for (Part* part : parts_)
+    if (auto* amounts = dynamic_cast<CountsAmounts*>(part)) amounts->count_amounts_from_here(settled);
 }
 
 void Model::check_determined() const {

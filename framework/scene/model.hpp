@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/assembly/counts_from_here.hpp"
 #include "framework/scene/scene.hpp"
 #include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/schedule_step.hpp"
@@ -44,8 +45,9 @@ class Model {
   void accept();
   void rewind();
 
-  /// Solves for the components of `start: settle`, everything else held, with data as they are at the start, accepts
-  /// the state and lets parts count from there (CountsFromHere). Does nothing without it.
+  /// Solves for the components of `start: settle`, everything else held, with data as they are at the start: for the
+  /// state that they would have after so long a time that nothing changes any more. Accepts the state and lets parts
+  /// count from there (CountsFromHere, CountsAmounts, KeepsTotals). Does nothing without it.
   StepStatus settle_start();
 
   /// The steps of the schedule that let the mesh grow.
@@ -65,6 +67,9 @@ class Model {
 
  private:
   void make_start(const ScheduleContext& context);
+  void note_start();
+  /// Makes the present state the reference of all that is counted by changes.
+  void count_from_here(const SettledFields& settled);
   void check_outputs() const;
   /// Sets values to NaN where a component does not live (LivesInPart).
   void hide_uninhabited(std::vector<OutputField>& fields) const;

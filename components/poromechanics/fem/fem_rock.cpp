@@ -10,6 +10,7 @@
 #include "components/poromechanics/fem/volumetric_split.hpp"
 #include "components/poromechanics/notes.hpp"
 #include "components/poromechanics/principal_stress.hpp"
+#include "components/poromechanics/start_balance.hpp"
 #include "components/poromechanics/stress_without_displacement.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -189,10 +190,10 @@ void FemRock::use_given() {
     for (const PoreLoad& load : loads_)
       quantity->value.constant -= operators.of_stress * load.alpha.cwiseProduct(load.reference);
   }
-  if (!settled_ || !wall_traction_) return;
+  if (jumps_.size() == 0) return;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     if (is_owned(mesh_, Location::fracture_cell, i))
-      jump_.value.constant.segment<dimension>(dimension * i) += settled_->jumps.segment<dimension>(dimension * i);
+      jump_.value.constant.segment<dimension>(dimension * i) += jumps_.segment<dimension>(dimension * i);
 }
 
 void FemRock::require_countable() const {
@@ -202,27 +203,43 @@ void FemRock::require_countable() const {
                      "use 'order: second', or poromechanics/mpsa");
 }
 
-void FemRock::count_from_here() {
-  SettledRock settled;
-  settled.forces = settled_forces(options_, mesh_, stiffness_.of_cells(), operators_, coefficients());
-  settled.stress = mean_stress();
-  settled.displacements = given_.displacements;
-  if (wall_traction_) {
-    settled.jumps = jump_.value.now();
-    replicate(mesh_, Location::fracture_cell, dimension, settled.jumps);
-  }
-  settled_ = std::move(settled);
-  for (Field* field : unknowns()) field->set_both(Vector::Zero(field->size()));
+void FemRock::count_from_here(const SettledFields& settled) {
+  if (settled.fields.empty()) return;
+  if (settled.contain(displacement_)) count_from_equilibrium();
+  count_loads_from_here(settled, displacement_, loads_);
   data_evaluated_ = false;
   begin_step(StepTime(evaluated_for_));
 }
 
+void FemRock::count_from_equilibrium() {
+  SettledRock settled;
+  settled.forces = settled_forces(options_, mesh_, stiffness_.of_cells(), operators_, coefficients(), pore_stress());
+  settled.stress = mean_stress();
+  settled.displacements = given_.displacements;
+  if (wall_traction_) {
+    jumps_ = jump_.value.now();
+    replicate(mesh_, Location::fracture_cell, dimension, jumps_);
+  }
+  settled_ = std::move(settled);
+  for (Field* field : unknowns()) field->set_both(Vector::Zero(field->size()));
+}
+
+void FemRock::count_jumps_from(const Vector& jumps) {
+  SPREKK_EXPECT(wall_traction_ && jumps.size() == wall_traction_->size(), jumps.size());
+  jumps_ = jumps;
+  is_given_used_ = false;
+}
+
 void FemRock::save(std::map<std::string, Vector>& state) const {
   if (settled_) settled_->save(name(), state);
+  save_loads(name(), loads_, state);
+  if (jumps_.size() > 0) state[key_of_jumps(name())] = jumps_;
 }
 
 void FemRock::restore(const std::map<std::string, Vector>& state) {
   settled_ = SettledRock::restored(name(), state);
+  restore_loads(name(), loads_, state);
+  if (const auto kept = state.find(key_of_jumps(name())); kept != state.end()) jumps_ = kept->second;
   data_evaluated_ = false;
 }
 
@@ -351,6 +368,10 @@ std::vector<double> FemRock::switch_times() const {
 }
 
 void FemRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
+
+void FemRock::note_start(Notes& notes) const {
+  note_start_imbalance(notes, options_, mesh_, name(), evaluated_for_.start);
+}
 
 void FemRock::note_step(Notes& notes, const StepTime&) const {
   const Vector all = coefficients();

@@ -14,6 +14,7 @@
 #include "components/poromechanics/rock_stiffness.hpp"
 #include "components/poromechanics/settled_rock.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/notes_start.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::poromechanics {
@@ -35,7 +36,8 @@ class FemRock : public Component,
                 public RockWalls,
                 public RockState,
                 public RockStress,
-                public CountsFromHere {
+                public CountsFromHere,
+                public NotesStart {
  public:
   /// Throws InputError as Rock does.
   FemRock(const ComponentContext& context, const FemOptions& options);
@@ -46,12 +48,13 @@ class FemRock : public Component,
   void assemble(Assembly& assembly, const StepTime& step) const override;
   /// Throws InputError at first order, where the stabilization is no stress of cells.
   void require_countable() const override;
-  void count_from_here() override;
-  bool has_settled_reference() const override { return settled_.has_value(); }
+  void count_from_here(const SettledFields& settled) override;
+  bool has_settled_reference() const override { return settled_ || has_settled_loads(loads_); }
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
+  void note_start(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
   std::vector<double> switch_times() const override;
   std::map<std::string, long> counts() const override { return {{"stress discretizations", discretizations_}}; }
@@ -63,6 +66,7 @@ class FemRock : public Component,
   const Property& bulk_modulus() const override { return stiffness_.bulk_modulus(); }
   Field& wall_traction() override { return *wall_traction_; }
   const LinearExpression& displacement_jump() const override { return jump_.value; }
+  void count_jumps_from(const Vector& jumps) override;
   Vector wall_compliance() override { return operators_.wall_compliance; }
   std::string flaw_of_jumps() const override;
 
@@ -92,6 +96,7 @@ class FemRock : public Component,
   void discretize();
   void use_loads();
   void use_given();
+  void count_from_equilibrium();
   /// A quantity of the rows that `owned` flags: of a linear function of all coefficients, or as it is.
   Quantity quantity_of(const SparseMatrix& of_all, const std::vector<char>& owned) const;
   Quantity quantity_of(LinearInFem operators, const std::vector<char>& owned) const;
@@ -110,6 +115,7 @@ class FemRock : public Component,
   Held held_;
   std::vector<PoreLoad> loads_;
   std::optional<SettledRock> settled_;  ///< the state from which displacements are counted, if it was settled
+  Vector jumps_;                        ///< m, of walls while u = 0; empty where they are zero
   std::uint64_t used_excavation_ = 0;
 
   std::uint64_t discretized_mesh_ = 0, discretized_stiffness_ = 0, alpha_version_ = 1, used_alpha_ = 0;

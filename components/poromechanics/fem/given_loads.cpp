@@ -119,7 +119,7 @@ GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& hel
 }
 
 Vector settled_forces(const Options& options, const Mesh& mesh, const std::vector<Stiffness>& stiffness,
-                      const FemOperators& operators, const Vector& coefficients) {
+                      const FemOperators& operators, const Vector& coefficients, const Vector& pore_stress) {
   const RawDisplacement raw{mesh};
   std::vector<double> all;
   for (int c = 0; c < mesh.cell_count(); ++c) {
@@ -130,10 +130,11 @@ Vector settled_forces(const Options& options, const Mesh& mesh, const std::vecto
     for (int i = 0; i < functions; ++i)
       displacement.segment<dimension>(dimension * i) = coefficients.segment<dimension>(first[i]);
     Eigen::VectorXd forces = cell_stiffness(points, stiffness[c], ElementOrder::second).of_unknowns * displacement;
-    if (!options.initial_stress.is_zero()) {
+    if (!options.initial_stress.is_zero() || pore_stress[c] != 0) {
       Eigen::VectorXd of_stress = Eigen::VectorXd::Zero(dimension * (functions + 1));
       for (const CellPoint& point : points) {
-        const Tensor stress = options.initial_stress.at({point.x, mesh.cell_region[c], 0});
+        const Tensor stress =
+            options.initial_stress.at({point.x, mesh.cell_region[c], 0}) + Tensor(pore_stress[c] * Tensor::Identity());
         for (int i = 0; i <= functions; ++i)
           of_stress.segment<dimension>(dimension * i) += point.weight * stress * point.gradient.col(i);
       }

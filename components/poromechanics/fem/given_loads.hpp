@@ -25,9 +25,9 @@ GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& hel
                        const Excavation& excavation, const Vector* settled, const StepTime& step);
 
 /// The forces of the total stress of every cell on the functions of its corners and faces (RawDisplacement::of_cell),
-/// cell after cell, N/m. `coefficients`: all of them, m; the pore pressures are those of the start. For the second
-/// order.
+/// cell after cell, N/m. `coefficients`: all of them, m; `pore_stress`: what pore pressures add to xx and yy of each
+/// cell, Pa. For the second order.
 Vector settled_forces(const Options& options, const Mesh& mesh, const std::vector<Stiffness>& stiffness,
-                      const FemOperators& operators, const Vector& coefficients);
+                      const FemOperators& operators, const Vector& coefficients, const Vector& pore_stress);
 
 }  // namespace sprekk::poromechanics

@@ -1,0 +1,19 @@
+// The interface of a part that joins components which come to rest together only.
+#pragma once
+
+#include <vector>
+
+#include "framework/assembly/part.hpp"
+
+namespace sprekk {
+
+/// A part with terms that are held at what they are before the start while one of its components is settled alone, so
+/// that the state would move from the first step on.
+class RestsTogether {
+ public:
+  virtual ~RestsTogether() = default;
+  /// Pairs of components of which the first has no state at rest without the second (Dependence::component, on).
+  virtual std::vector<Dependence> dependences_at_rest() const = 0;
+};
+
+}  // namespace sprekk
