@@ -47,7 +47,7 @@ void pass_walls(const std::vector<CrossingArm>& arms, int through, std::vector<W
   double width = 0, across = 0;
   int count = 0;
   for (const CrossingArm& arm : arms) {
-    if (arm.fracture != through || arm.width == 0) continue;
+    if (arm.fracture != through) continue;
     width = std::max(width, arm.width);
     across += arm.across;
     ++count;

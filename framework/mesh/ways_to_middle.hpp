@@ -32,9 +32,10 @@ struct WayToMiddle {
 
 /// One for each arm. An arm passes the last part of its half cell, half as long as the widest other fracture is wide,
 /// within the crossing: there its resistivity is that of the fill (Flemisch and others, Adv. Water Resour. 111 (2018)
-/// 239, sec. 4.3: harmonic means). This length holds for all angles: two strips of one width cross in a rhombus, whose
-/// resistance from one side to the opposite one is that of a square, since its mirror image in a diagonal exchanges
-/// both pairs of sides. A fracture that goes through keeps its half cells, and all other arms pass one of its walls.
+/// 239, sec. 4.3: harmonic means). For strips of one width this length holds at all angles: they cross in a rhombus,
+/// whose resistance from one side to the opposite one is that of a square, since its mirror image in a diagonal
+/// exchanges both pairs of sides. A fracture that goes through keeps its half cells, and all other arms pass one of its
+/// walls.
 ///
 /// Fractures of equal resistivities keep their half cells to the bit, and so do two arms that meet end to end, unless
 /// the fill is said: halves in series have no crossing.

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -106,6 +108,31 @@ TEST(CrossingFill, IsWhatTheSceneSays) {
                    ", normal_permeability: constant, normal_permeability_value: {fractures: {b: 0.3 m/(Pa*s), a: 7 "
                    "m/(Pa*s)}}"),
               walls, 1e-11 * walls);
+}
+
+TEST(CrossingFill, IsSealedByADryFractureThatGoesThrough) {
+  // Fluid injected into one half of a stays there.
+  const auto pressure = [](const std::string& more) {
+    SceneRun run = SceneRun::from_text(
+        "{geometry: {box: {x: [-2, 2], y: [-2, 2]}, fractures: {a: {points: [[-1, 0], [1, 0]]}, b: {points: [[0, -1], "
+        "[0, 1]]}}}, mesh: {size: 1, fracture_size: 0.25}, components: {conduit: {type: fracture_flow/tpfa, viscosity: "
+        "0.5 Pa*s, fluid_compressibility: 1e-3 1/Pa, initial_aperture: 1 mm, fractures: a, transmissivity: constant, "
+        "transmissivity_value: 1 m^3, normal_permeability: constant, normal_permeability_value: 1 m/(Pa*s), injection: "
+        "{well: {at: [-0.9, 0], rate: 1e-6 m^2/s}}" +
+        more + "}}, schedule: [{solve: conduit}], time: {end: 1 s, step: 1 s}}");
+    run.run();
+    double least = 1, most = 0;
+    for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
+      if (run.mesh().fracture_cells[i].fracture != 0) continue;
+      least = std::min(least, run.field("conduit.pressure")[i]);
+      most = std::max(most, run.field("conduit.pressure")[i]);
+    }
+    return std::array{least, most};
+  };
+  const std::array sealed = pressure(", crossings: {x: {through: b}}"), open = pressure("");
+  EXPECT_EQ(sealed[0], 0);
+  EXPECT_NEAR(sealed[1], 1e-6 / (1e-3 * 1e-3 * 1), 1e-5);
+  EXPECT_NEAR(open[0], 1e-6 / (1e-3 * 1e-3 * 2), 1e-5);
 }
 
 TEST(CrossingFill, IsOpenWhereApertureSaysHowFracturesConduct) {

@@ -76,6 +76,11 @@ void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
   const CrossingFill& fill = crossing_fills_[junction];
   if (!fill.is_said() && !options_.is_constant()) return;
   const Junction& at = mesh_.junctions[junction];
+  if (fill.through != none && !is_in_fracture_cell(mesh_.fractures[fill.through].first_cell)) {
+    // A dry fracture lets nothing through.
+    for (JunctionFluxes::Half& half : halves) half = {0, Vector::Zero(static_cast<Eigen::Index>(at.cells.size()))};
+    return;
+  }
   std::vector<CrossingArm> arms;
   for (const int cell : at.cells) {
     const double width = is_in_fracture_cell(cell) ? initial_aperture_[cell] : 0;

@@ -67,6 +67,12 @@ TEST(WaysToMiddle, PassTheWallsOfAFractureThatGoesThrough) {
   for (const int i : {2, 3}) EXPECT_NEAR(resistance(arms[i], ways[i]), 1.9 * 7 / 0.1 + 40 / 0.1, 1e-12);
 }
 
+TEST(WaysToMiddle, PassTheWallsOfAFractureWithoutWidth) {
+  std::vector<CrossingArm> arms = {arm(0, 1, 0, 3), arm(0, 1, 0, 3), arm(1, 2, 0.1, 7)};
+  arms[0].across = arms[1].across = 40;
+  EXPECT_NEAR(resistance(arms[2], ways_to_middle(arms, {0, {}})[2]), 2 * 7 / 0.1 + 40 / 0.1, 1e-12);
+}
+
 TEST(WaysToMiddle, AreSealedByASealedFractureAndLeaveOutArmsWithoutWidth) {
   const double sealed = std::numeric_limits<double>::infinity();
   std::vector<CrossingArm> arms = {arm(0, 1, 0.2, 3), arm(0, 1, 0.2, 3), arm(1, 2, 0.1, sealed),
