@@ -124,7 +124,8 @@ Imbalance start_imbalance(const Options& options, const Mesh& mesh, double time)
 
 void note_start_imbalance(Notes& notes, const Options& options, const Mesh& mesh, const std::string& name,
                           double time) {
-  if (options.initial_stress.is_zero() && !options.has_body_force()) return;
+  const bool has_weight = !options.rock_density.is_zero() && !options.gravity.is_zero();
+  if (options.initial_stress.is_zero() && !has_weight) return;
   constexpr double small = 1e-2;  // of the largest stress
   const Start start(options, mesh, time);
   const Imbalance worst = start.largest();

@@ -179,5 +179,54 @@ TEST(SettledAmounts, FluidOfAnOpenFractureKeepsItsPressureOrItsAmount) {
   }
 }
 
+/// Reference: two flows that share a closed box come to the mean of their pressures, weighted by what they store.
+TEST(SettledAmounts, FlowsBesideEachOtherShareTheirFluid) {
+  SceneRun run = SceneRun::from_text(R"(
+geometry:
+  box: {x: [0 m, 10 m], y: [0 m, 10 m]}
+  regions:
+    low: {polygon: [[0 m, 0 m], [10 m, 0 m], [10 m, 5 m], [0 m, 5 m]]}
+    high: {polygon: [[0 m, 5 m], [10 m, 5 m], [10 m, 10 m], [0 m, 10 m]]}
+mesh: {kind: structured, shape: quadrilaterals, cells: [4, 4]}
+components:
+  pore: {type: matrix_flow/mpfa, regions: [low], permeability: 1e-14 m^2, viscosity: 1 mPa*s, storage: 1e-10 1/Pa}
+  beside: {type: matrix_flow/mpfa, regions: [high], permeability: 1e-18 m^2, viscosity: 1 mPa*s, storage: 3e-10 1/Pa, initial_pressure: 1 MPa}
+couplers: [{type: border_exchange, between: [pore, beside]}]
+start: {settle: [pore, beside]}
+schedule: [{solve: [pore, beside]}]
+time: {end: 10 year, step: 5 year}
+)");
+  for (const bool is_later : {false, true}) {
+    if (is_later) run.run();
+    for (int c = 0; c < run.mesh().cell_count(); ++c) {
+      const bool is_low = run.mesh().cell_center[c][1] < 5;
+      EXPECT_NEAR(run.field(is_low ? "pore.pressure" : "beside.pressure")[c], 0.75e6, 1e-4) << is_later;
+    }
+  }
+}
+
+/// Reference: what a well injects leaves by the side that lets it out, from the first step on: nothing is stored.
+TEST(SettledAmounts, AWellStartsInSteadyFlow) {
+  SceneRun run = SceneRun::from_text(R"(
+geometry: {box: {x: [0 m, 10 m], y: [0 m, 10 m]}}
+mesh: {kind: structured, shape: quadrilaterals, cells: [5, 5]}
+components:
+  pore: {type: matrix_flow/mpfa, permeability: 1e-14 m^2, viscosity: 1 mPa*s, storage: 1e-10 1/Pa, boundary: {left: {pressure: 0 Pa}}}
+  wells: {type: wells/limited, wells: {w: {at: [5 m, 5 m], rate: 1e-6 m^2/s, highest_pressure: 100 MPa, radius: 0.1 m}}}
+couplers: [{type: well_exchange, between: [pore, wells]}]
+start: {settle: [pore, wells]}
+schedule: [{solve: [pore, wells]}]
+time: {end: 10 day, step: 5 day}
+)");
+  const Vector pressure = run.field("pore.pressure");
+  const double in_well = run.field("wells.pressure")[0];
+  EXPECT_GT(pressure.maxCoeff(), 1e4);
+  run.run();
+  EXPECT_LT((run.field("pore.pressure") - pressure).lpNorm<Eigen::Infinity>(), 1e-9 * in_well);
+  EXPECT_NEAR(run.field("wells.pressure")[0] / in_well, 1, 1e-9);
+  EXPECT_NEAR(run.quantity("pore.left.outflow") / 1e-6, 1, 1e-9);
+  EXPECT_NEAR(run.quantity("fluid_stored") / run.quantity("fluid_injected"), 0, 1e-9);
+}
+
 }  // namespace
 }  // namespace sprekk::testing

@@ -78,6 +78,48 @@ output:
     force: {of: contact.traction, fracture: fault, take: mean}
 """
 
+# Rock, fluid and heat of two layers with a fault that slides under the weight; the water rises after the first step.
+LAYERS = """
+geometry:
+  box: {x: [0 m, 100 m], y: [-1000 m, 0 m]}
+  regions: {lower: {polygon: [[0 m, -1000 m], [100 m, -1000 m], [100 m, -400 m], [0 m, -400 m]]}}
+  fractures: {f: {points: [[20 m, -700 m], [70 m, -580 m]]}}
+mesh: {size: 80 m, fracture_size: 35 m}
+materials: {gravity: [0, -10 m/s^2], fluid_density: 1000 kg/m^3}
+components:
+  pore: {type: matrix_flow/mpfa, permeability: 1e-15 m^2, viscosity: 1 mPa*s, storage: 1e-10 1/Pa, boundary: {top: {pressure: "(-5e5 + 200*x + if(t < 9e7, 0, 1e6)) Pa"}}}
+  conduit: {type: fracture_flow/tpfa, viscosity: 1 mPa*s, fluid_compressibility: 4e-10 1/Pa, initial_aperture: 1 mm}
+  rock:
+    type: poromechanics/ROCK
+    young_modulus: {regions: {lower: 40 GPa, default: 10 GPa}}
+    poisson_ratio: 0.25
+    rock_density: {regions: {lower: 2600 kg/m^3, default: 2200 kg/m^3}}
+    boundary: {left: {displacement_x: 0 m}, right: {displacement_x: 0 m}, bottom: {displacement_y: 0 m}}
+  contact: {type: contact/coulomb, friction: 0.6, closure: {law: linear, stiffness: 100 GPa/m}}
+  heat: {type: matrix_heat/mpfa, conductivity: 3 W/(m*K), heat_capacity: 2e6 J/(m^3*K), initial_temperature: (283-0.03*y) K, boundary: {top: {temperature: 283 K}, bottom: {heat_flux: -0.06 W/m^2}}}
+  slot: {type: fracture_heat/tpfa, aperture: 1 mm, conductivity: 0.6 W/(m*K), heat_capacity: 4.2e6 J/(m^3*K), initial_temperature: (283-0.03*y) K}
+couplers:
+  - {type: aperture, between: [contact, conduit]}
+  - {type: biot, between: [pore, rock], biot_coefficient: 0.8}
+  - {type: thermal_stress, between: [heat, rock], expansion: 1e-5 1/K}
+  - {type: wall_exchange, between: [pore, conduit]}
+  - {type: wall_traction, between: [rock, contact, conduit]}
+  - {type: heat_exchange, between: [heat, slot]}
+  - {type: heat_advection, between: [pore, conduit, heat, slot], fluid_heat_capacity: 4.2e6 J/(m^3*K)}
+start: {settle: [pore, conduit, rock, contact, heat, slot]}
+schedule: [{solve: [pore, conduit, rock, contact]}, {solve: [heat, slot]}]
+time: {end: 10 year, step: 2.5 year}
+output:
+  probes:
+    p: {of: pore.pressure, at: [50 m, -300 m]}
+    pf: {of: conduit.pressure, fracture: f, take: mean}
+    f: {of: contact.traction, fracture: f, take: mean}
+    a: {of: conduit.aperture, fracture: f, take: mean}
+    T: {of: heat.temperature, at: [50 m, -900 m]}
+    s: {of: rock.stress, at: [50 m, -900 m]}
+    u: {of: rock.displacement, at: [50 m, 0 m]}
+"""
+
 
 def changed(text, *changes):
     for before, after in changes:
@@ -247,6 +289,29 @@ class Start(unittest.TestCase):
                     if not name.startswith("iterations"):
                         value = float(row[name])
                         self.assertAlmostEqual(float(other[name]), value, delta=1e-8 * abs(value) + 1e-12, msg=name)
+
+    def test_all_that_was_settled_goes_on_from_its_checkpoint(self):
+        for rock in ("mpsa", "fem"):
+            scene = changed(LAYERS, ("ROCK", rock))
+            whole = self.rows(f"layers_{rock}", scene)
+            self.assertLess(abs(self.number(whole[0], "u.y")), 1e-11)  # the weight has shortened the box by a metre
+            self.assertGreater(abs(self.number(whole[-1], "u.y")), 1e-3)
+            for name in (f"part_{rock}", f"half_layers_{rock}"):
+                self.rows(name, changed(scene, ("end: 10 year", "end: 5 year")))
+            part = self.rows(f"part_{rock}", scene, options=("--restart", f"part_{rock}/checkpoint.h5"))
+            self.assertEqual([dict(row) for row in whole], [dict(row) for row in part])
+            settle = "start: {settle: [pore, conduit, rock, contact, heat, slot]}"
+            goes_on = self.rows(f"on_{rock}", changed(scene, (settle, f"start: {{from: half_layers_{rock}}}"),
+                                                      ("time: {end: 10 year", "time: {start: 5 year, end: 10 year")))
+            for row, other in zip(whole[2:], goes_on, strict=True):
+                for name in ("p[Pa]", "pf[Pa]", "f.n[Pa]", "a[m]", "T[K]", "s.xx[Pa]", "u.y[m]"):
+                    self.assertEqual(row[name], other[name], name)
+            for name, text in ((f"shared_layers_{rock}", scene), (f"disturbed_{rock}", changed(
+                    scene, ("fluid_density: 1000 kg/m^3", "fluid_density: 1000.000001 kg/m^3")))):
+                for row, other in zip(whole, self.rows(name, text, 2 if "shared" in name else 1), strict=True):
+                    for key in ("p[Pa]", "pf[Pa]", "f.n[Pa]", "a[m]", "T[K]", "s.xx[Pa]"):
+                        value = float(row[key])
+                        self.assertAlmostEqual(float(other[key]), value, delta=1e-7 * abs(value), msg=f"{name} {key}")
 
 
 if __name__ == "__main__":
