@@ -73,7 +73,7 @@ void FractureFlow::note_ends(Notes& notes) const {
     const int cell = point.cells[0];
     const std::string& side = mesh_.side_names[point.side];
     const auto is_wet = [&](int wall_face) { return rock_fluid_->is_in_cell(mesh_.face_cells[wall_face][0]); };
-    if (options_.ends.count(side) > 0 || !is_in_fracture_cell(cell) || transmissivity(cell).value == 0 ||
+    if (options_.ends.count(side) > 0 || is_prescribed_[cell] || transmissivity(cell).value == 0 ||
         std::ranges::none_of(mesh_.fracture_cells[cell].faces, is_wet))
       continue;
     notes.add(
