@@ -107,9 +107,9 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
   for (std::size_t i = 0; i < held_.size(); ++i) is_local_[i] |= held_[i];
   int bulk = 0, local = 0;
   for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = is_local_[i] ? local++ : bulk++;
-  if (!held_.empty()) is_held_row_.assign(local, 0);
+  if (std::ranges::count(held_, 1) > 0) is_held_local_.assign(local, 0);
   for (std::size_t i = 0; i < held_.size(); ++i)
-    if (held_[i]) is_held_row_[place_[i]] = 1;
+    if (held_[i]) is_held_local_[place_[i]] = 1;
   for (const UnknownBlock& block : blocks_)
     for (const bool is_local : {false, true}) {
       UnknownBlock chosen = chosen_entities(block, is_local_, is_local, place_);

@@ -32,8 +32,9 @@ class BulkSplitting {
   const std::vector<char>& held() const { return held_; }
   int bulk_size() const { return bb.matrix.rows(); }
   int local_size() const { return ff.matrix.rows(); }
-  /// Whether a row of F belongs to the bulk, but is held by F.
-  bool is_held_row(int row) const { return !is_held_row_.empty() && is_held_row_[row]; }
+  /// Whether an unknown of F belongs to the bulk, but is held by F; whether there are some.
+  bool is_held(int unknown) const { return is_held_local_[unknown]; }
+  bool has_held() const { return !is_held_local_.empty(); }
   Vector bulk_part(const Vector& whole) const { return part(whole, false, bulk_size()); }
   Vector local_part(const Vector& whole) const { return part(whole, true, local_size()); }
   Vector joined(const Vector& bulk, const Vector& local) const;
@@ -62,9 +63,9 @@ class BulkSplitting {
 
   std::vector<int> outer_, inner_;
   std::vector<char> held_;
-  std::vector<char> is_local_;     ///< of every unknown
-  std::vector<char> is_held_row_;  ///< of every unknown of F; empty for none
-  std::vector<int> place_;         ///< of every unknown: its number among those of its kind
+  std::vector<char> is_local_;       ///< of every unknown
+  std::vector<char> is_held_local_;  ///< of every unknown of F; empty for none
+  std::vector<int> place_;           ///< of every unknown: its number among those of its kind
   std::vector<UnknownBlock> blocks_, bulk_blocks_, local_blocks_;
   std::vector<int> sums_;
 };

@@ -77,20 +77,29 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
   return reduced;
 }
 
-/// Whether a row of the bulk that was left to the interface has nothing but the round-off of what it exchanges with the
-/// rest of its bulk: then neither the fractures nor what is stored hold that part of the bulk, or too weakly to be seen
-/// after the elimination.
+/// Whether no equation on interfaces responds to an unknown of the bulk that was left to them, but for the round-off of
+/// what its cell exchanges with the rest of its bulk: then neither the fractures nor what is stored hold that part of
+/// the bulk, or too weakly to be seen after the elimination.
 bool is_lost(const BulkSplitting& split, const SparseMatrix& reduced,
              const BulkSchurComplement::RowMatrix& schur_rows) {
-  constexpr double lost = 1e-13;  // of the terms, each of them a sum of many
-  for (std::size_t k = 0; k < split.interface_rows.size(); ++k) {
-    const int row = split.interface_rows[k];
-    if (!split.is_held_row(row)) continue;
-    double terms = schur_rows.row(static_cast<Eigen::Index>(k)).lpNorm<1>(), left = 0;
-    for (SparseMatrix::InnerIterator entry(split.ff.matrix, row); entry; ++entry) terms += std::abs(entry.value());
-    for (SparseMatrix::InnerIterator entry(reduced, row); entry; ++entry) left += std::abs(entry.value());
-    if (left <= lost * terms) return true;
+  constexpr double lost = 1e-13;  // of the terms of an entry, each of them a sum of many
+  std::vector<char> is_felt(split.local_size(), 0);
+  int schur_row = 0;
+  for (int row = 0; row < reduced.rows(); ++row) {
+    const int k = split.fb.has_row(row) ? schur_row++ : -1;
+    std::size_t c = 0;
+    for (SparseMatrix::InnerIterator entry(reduced, row); entry; ++entry) {
+      const int column = static_cast<int>(entry.col());
+      if (!split.is_held(column)) continue;
+      while (c < split.interface_columns.size() && split.interface_columns[c] < column) ++c;
+      double terms = std::abs(split.ff.matrix.coeff(row, column));
+      if (k >= 0 && c < split.interface_columns.size() && split.interface_columns[c] == column)
+        terms += std::abs(schur_rows(k, static_cast<Eigen::Index>(c)));
+      is_felt[column] |= std::abs(entry.value()) > lost * terms;
+    }
   }
+  for (int column = 0; column < split.local_size(); ++column)
+    if (split.is_held(column) && !is_felt[column]) return true;
   return false;
 }
 
@@ -188,7 +197,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
                LinearReport::failure("the bulk could not be factorized for equations on fractures that have changed");
   reduced_number_ = system.number;
   SparseMatrix reduced = reduced_matrix(split, reduced_pattern_, *schur_rows);
-  if (is_lost(split, reduced, *schur_rows))
+  if (split.has_held() && is_lost(split, reduced, *schur_rows))
     return reduced_report_ = LinearReport::failure("a part of the bulk is not held by its fractures");
   return reduced_report_ = reduced_.factor(split.local_system(std::move(reduced)));
 }
