@@ -73,7 +73,7 @@ bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool al
   SPREKK_EXPECT(!summed.unknowns.empty(), summed.name);
   for (const Assembly::Fixed& fixed : assembly.fixed())
     if (summed.has(fixed.unknown)) return false;
-  double exchanged = 0;
+  double exchanged = 0, passed_on = 0;  // what leads to other balances of the quantity holds these
   bool is_coupled = false, is_part = false;
   for (const Balances::Quantity& quantity : assembly.balances().quantities())
     is_part = is_part || (quantity.has(summed.unknowns.front()) && quantity.unknowns.size() > summed.unknowns.size());
@@ -81,8 +81,11 @@ bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool al
     if (!summed.has(block.row)) continue;
     if (summed.has(block.column)) {
       if (block.largest_exchange > 0) exchanged = std::max(exchanged, largest_weight(block) * block.largest_exchange);
-    } else if (is_bulk(assembly.unknowns()[block.column]->spec().role.kind()) &&
-               !is_beside(assembly, summed, block.column)) {
+    } else if (is_beside(assembly, summed, block.column)) {
+      if (block.largest_exchange > 0)  // the sum of these balances misses it
+        passed_on += largest_weight(block) *
+                     Eigen::Map<const Vector>(block.matrix->valuePtr(), block.matrix->nonZeros()).lpNorm<1>();
+    } else if (is_bulk(assembly.unknowns()[block.column]->spec().role.kind())) {
       const double* values = block.matrix->valuePtr();
       is_coupled =
           is_coupled || std::any_of(values, values + block.matrix->nonZeros(), [](double v) { return v != 0; });
@@ -91,7 +94,7 @@ bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool al
   if (!also_coupled && parallel::any(is_coupled)) return false;
   exchanged = parallel::max(exchanged);
   if (exchanged == 0) return false;
-  double held = 0;
+  double held = passed_on;
   for (const int unknown : summed.unknowns) {
     Vector by_constant = Vector::Zero(assembly.unknowns()[unknown]->size());
     for (const Assembly::Block& block : assembly.blocks())

@@ -205,6 +205,26 @@ time: {end: 10 year, step: 5 year}
   }
 }
 
+/// Reference: two flows in one rock, that of fractures and that of blocks, come to the pressure of the side.
+TEST(SettledAmounts, FlowsInOneRockComeToThePressureOfTheSide) {
+  SceneRun run = SceneRun::from_text(R"(
+geometry: {box: {x: [0 m, 10 m], y: [0 m, 10 m]}}
+mesh: {kind: structured, shape: quadrilaterals, cells: [4, 4]}
+components:
+  pore: {type: matrix_flow/mpfa, permeability: 1e-14 m^2, viscosity: 1 mPa*s, storage: 1e-10 1/Pa, boundary: {left: {pressure: 2 MPa}}}
+  blocks: {type: matrix_flow/mpfa, permeability: 1e-18 m^2, viscosity: 1 mPa*s, storage: 3e-10 1/Pa, initial_pressure: 1 MPa}
+couplers: [{type: matrix_exchange, between: [pore, blocks], exchange: 1e-12 1/(Pa*s)}]
+start: {settle: [pore, blocks]}
+schedule: [{solve: [pore, blocks]}]
+time: {end: 10 year, step: 5 year}
+)");
+  for (const bool is_later : {false, true}) {
+    if (is_later) run.run();
+    for (const char* name : {"pore.pressure", "blocks.pressure"})
+      EXPECT_LT((run.field(name).array() - 2e6).matrix().lpNorm<Eigen::Infinity>(), 1e-4) << name << is_later;
+  }
+}
+
 /// Reference: what a well injects leaves by the side that lets it out, from the first step on: nothing is stored.
 TEST(SettledAmounts, AWellStartsInSteadyFlow) {
   SceneRun run = SceneRun::from_text(R"(
