@@ -109,10 +109,25 @@ bool StepAttempts::cut() {
     return false;
   }
   const std::string next = duration_text(next_step().dt);
+  if (has_failed) note_cut();
   progress_.event(has_failed ? fmt::format("step cut: {}; again over {}", reason_, next)
                              : fmt::format("step from {} shortened from {} to {}: {}", duration_text(step_.start),
                                            duration_text(step_.dt), next, status_.reason));
   return true;
+}
+
+void StepAttempts::note_cut() {
+  const std::string topic = "steps cut";
+  Notes& notes = state_.notes;
+  const auto known = std::ranges::find(notes.all(), topic, &Notes::Note::topic);
+  const double count = known == notes.all().end() ? 1 : known->measure + 1;
+  notes.at_time(step_.start);
+  notes.add(
+      topic,
+      fmt::format("{} {} converge, and shorter steps were taken in their place (the last time since {}) where that "
+                  "costs much, take shorter steps from the start, or another scheme",
+                  count, count == 1 ? "attempt at a step did not" : "attempts at steps did not", reason_),
+      count);
 }
 
 std::string StepAttempts::name() const {

@@ -39,6 +39,7 @@ class StepAttempts {
   std::string limit_steps();
   MeshGrowth::Outcome follow_growth();
   bool cut();
+  void note_cut();
   Outcome give_up(const std::string& why);
   std::string name() const;  ///< of the step
 

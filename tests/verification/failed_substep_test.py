@@ -71,6 +71,19 @@ class FailedSubstep(unittest.TestCase):
     def test_the_step_that_follows_is_that_of_a_run_which_begins_with_it(self):
         self.compare()
 
+    def test_the_cut_is_told(self):
+        def told(folder):
+            return [note["text"] for note in sprekk.Results(folder / "out").record["notes"] if note["topic"] == "steps cut"]
+        with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
+            cut, _ = self.run_scene(Path(one))
+            (text,) = told(Path(one))
+            rejected = sprekk.Results(Path(one) / "out").record["counters"]["steps rejected"]
+            self.assertEqual(cut.returncode, 1)  # the last attempt that is rejected ends the run
+            self.assertRegex(text, rf"^{rejected - 1} attempts at steps did not converge, .* did not converge: substep \d: no convergence in 1 iterations")
+            self.assertIn("note: " + text, cut.stderr)
+            self.run_scene(Path(other), step=2, end=2)
+            self.assertEqual(told(Path(other)), [])
+
     def test_turned_by_a_right_angle(self):
         self.compare(angle=-45.0, right=RISING, top=STEADY)
 
