@@ -22,6 +22,14 @@ struct FluidReservoir {
   std::vector<int> cells;
 };
 
+/// Whether fluid that enters at a point may be shared among two cells: in rock that conducts otherwise it might not be
+/// able to flow away.
+inline bool conduct_alike(const Tensor& one, const Tensor& other) {
+  constexpr double most = 2;
+  const double ratio = other.trace() / one.trace();
+  return ratio > 1 / most && ratio < most;
+}
+
 /// Capability: gives the fluxes of fluid in the matrix. To be used after Part::begin_step of all parts.
 class MatrixFluxes {
  public:

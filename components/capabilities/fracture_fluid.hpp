@@ -1,6 +1,9 @@
 // Capabilities of the flow in the fractures.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "framework/field/field.hpp"
 
 namespace sprekk {
@@ -38,6 +41,17 @@ class FractureFluid {
   /// How well a fracture cell conducts along itself from end to end, m^2/(Pa s), at the current aperture. To be used
   /// after Part::evaluate_data of all parts.
   virtual double conductance(int cell) const = 0;
+  /// The cells among which fluid that enters at a point of a fracture cell is shared, and their shares, which add up to
+  /// 1: the flow from the point to the centres along fractures, at the current apertures. The shares of a step are
+  /// those at its start: to be called by Part::begin_step.
+  virtual std::vector<std::pair<int, double>> shares_at(int cell, const Point& at) const = 0;
+  /// What a rate at the point adds to the mean of these cells' pressures, with their shares, for the pressure at the
+  /// point, Pa s/m^2, at the current aperture, and its derivatives by the apertures of cells.
+  struct Rise {
+    double value = 0;
+    std::vector<std::pair<int, double>> by_aperture = {};
+  };
+  virtual Rise rise_at(int cell, const Point& at) const = 0;
   /// The part of the aperture of a fracture cell that has fluid in it: 1, unless the pressure has a lower bound.
   virtual double filled_part(int cell) const = 0;
   /// Whether there is a flow in a fracture cell. Where there is none, the fracture is dry: its pressure is zero,
@@ -50,6 +64,8 @@ class FractureFluid {
   virtual void accept_rock_fluid(MatrixFluid& rock_fluid, const MatrixWalls& walls) = 0;
   virtual MatrixFluid* rock_fluid() const = 0;
   virtual const MatrixWalls* rock_walls() const = 0;
+  /// Where a point is as shares_at and rise_at take it: its centre beyond the last centre before an end.
+  virtual Point point_at(int cell, const Point& at) const = 0;
 };
 
 }  // namespace sprekk

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/config/input_error.hpp"
@@ -22,10 +23,10 @@ struct WellPlace {
   std::optional<double> index;  ///< m^2/(Pa s), rate over difference of pressure; absent where it follows from the mesh
 };
 
-/// What surrounds a place: a cell of the rock or of a fracture.
+/// What surrounds a place: cells of the rock or of fractures, with their shares of the rate there.
 struct AroundWell {
-  const Field* pressure = nullptr;  ///< of the flow to which the place is open
-  int cell = none;
+  const Field* pressure = nullptr;                  ///< of the flow to which the place is open
+  std::vector<std::pair<int, double>> shares = {};  ///< which add up to 1
 };
 
 /// Capability: determines the pressure in wells from their rates.
@@ -42,14 +43,16 @@ class WellPressures {
   virtual const std::vector<std::string>& names() const = 0;
   /// Whether the rate that a well is to have in this step injects fluid.
   virtual bool is_to_inject(int well) const = 0;
-  /// The coupler that determines the rates tells what surrounds each place, while the scene is built.
+  /// The coupler that determines the rates tells what surrounds each place, while the scene is built, and again where
+  /// that changes, in Part::begin_step.
   virtual void accept_surroundings(std::vector<AroundWell> around) = 0;
   /// What accept_surroundings was given; empty before that, and couplers are built in any order.
   virtual const std::vector<AroundWell>& surroundings() const = 0;
   /// Whether the pressure of some well is given, whatever its rate.
   virtual bool holds_pressure() const = 0;
-  /// Refuses limits that contradict the pressure around the well at the start, Pa, one a place. Throws InputError.
-  virtual void check_limits(const Vector& around) const = 0;
+  /// The pressure around the wells at the start, Pa, one a place, from which the pressure of wells begins. Throws
+  /// InputError for limits that contradict it.
+  virtual void begin_with(const Vector& around) = 0;
   /// The difference of pressure over the rate, Pa s/m^2, one a place, positive: the scale of the equations. To be given
   /// in Part::begin_step of couplers.
   virtual void scale(const Vector& resistance) = 0;

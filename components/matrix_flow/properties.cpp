@@ -100,11 +100,8 @@ void MatrixFlow::find_regions() {
 }
 
 void MatrixFlow::place_wells() {
-  // Fluid of a well must not be added to rock of another permeability, where it might not be able to flow away.
   const auto is_like = [&](int cell, int other) {
-    const double ratio = mobility_[other].trace() / mobility_[cell].trace();
-    constexpr double most = 2;
-    return is_sealed_ || (ratio > 1 / most && ratio < most);
+    return is_sealed_ || conduct_alike(mobility_[cell], mobility_[other]);
   };
   for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at, is_like);
 }

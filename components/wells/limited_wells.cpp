@@ -11,6 +11,8 @@
 namespace sprekk::wells {
 namespace {
 
+constexpr double rounding = 1e-6;  // of the pressure at the start
+
 std::vector<std::string> names_of(const Options& options, const Origin& origin) {
   if (options.wells.empty())
     throw InputError(origin, "there is no well", "'wells' is empty", "name a well, or remove the component");
@@ -114,7 +116,7 @@ void LimitedWells::evaluate_data(const StepTime& step) {
 
 bool LimitedWells::holds_pressure() const { return std::ranges::any_of(now_, &Control::has_pressure); }
 
-void LimitedWells::check_limits(const Vector& around) const {
+void LimitedWells::begin_with(const Vector& around) {
   SPREKK_EXPECT(around.size() == static_cast<Eigen::Index>(places_.size()), around.size(), places_.size());
   for (std::size_t k = 0; k < places_.size(); ++k) {
     const Control& control = now_[places_[k].well];
@@ -127,6 +129,9 @@ void LimitedWells::check_limits(const Vector& around) const {
         control.rate > 0 ? "raise highest_pressure above the pressure around the well"
                          : "lower lowest_pressure below the pressure around the well");
   }
+  const Vector places = of_places_ * Vector::Ones(around.size());
+  at_start_ = (of_places_ * around).cwiseQuotient(places);
+  pressure_.set_both(at_start_);
 }
 
 void LimitedWells::scale(const Vector& resistance) {
@@ -226,6 +231,16 @@ void LimitedWells::note_step(Notes& notes, const StepTime&) const {
                 fmt::format("well '{}' does not {} (the pressure around it is beyond its limit, and it does not flow "
                             "back); look at the limit, or give its 'pressure' if it may flow back",
                             names_[w], now_[w].rate > 0 ? "inject" : "extract"));
+  // As for the rock: pressures that begin above zero are absolute, and others may be relative to any reference.
+  for (int w = 0; w < count(); ++w)
+    if (const double pressure = pressure_.now()[w]; at_start_[w] > 0 && pressure < -rounding * at_start_[w])
+      notes.add(
+          name() + "." + names_[w] + " below zero",
+          fmt::format("the pressure in well '{}' falls to {:.3g} Pa (around it it began at {:.3g} Pa, and no fluid "
+                      "bears to be pulled: the flow would stop there) give it a 'lowest_pressure', or a smaller "
+                      "rate",
+                      names_[w], pressure, at_start_[w]),
+          -pressure);
 }
 
 namespace {

@@ -41,6 +41,7 @@ class LimitedWells : public Component, public WellPressures, public KeepsTotals 
   LimitedWells(const ComponentContext& context, const Options& options);
 
   void evaluate_data(const StepTime& step) override;
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
@@ -60,7 +61,7 @@ class LimitedWells : public Component, public WellPressures, public KeepsTotals 
   void accept_surroundings(std::vector<AroundWell> around) override { surroundings_ = std::move(around); }
   const std::vector<AroundWell>& surroundings() const override { return surroundings_; }
   bool holds_pressure() const override;
-  void check_limits(const Vector& around) const override;
+  void begin_with(const Vector& around) override;
   void scale(const Vector& resistance) override;
 
  private:
@@ -79,6 +80,7 @@ class LimitedWells : public Component, public WellPressures, public KeepsTotals 
   Field& injected_;                ///< m^2, at each place since the start
   SparseMatrix of_places_;         ///< wells × places: ones
   std::vector<Control> now_;       ///< which limit holds in this step, one a well
+  Vector at_start_;                ///< Pa, the pressure around the wells, one a well
   Vector resistance_;              ///< Pa s/m^2, one a well
   Vector scale_of_rates_;          ///< m^2/s, one a well: divisor of its equation where that prescribes a rate
   double scale_of_pressures_ = 1;  ///< Pa, divisor of equations that prescribe a pressure

@@ -7,14 +7,13 @@ namespace {
 
 void add_place(Spec& spec, Perforation& place) {
   spec.point("at", place.at, {.unit = "m", .doc = "Where the well is open."});
-  spec.text("fracture", place.fracture,
-            {.doc = "It is open to this fracture, in the cell at `at`; without it, to the rock."});
+  spec.text("fracture", place.fracture, {.doc = "It is open to this fracture at `at`; without it, to the rock."});
   spec.quantity(
       "index", place.index,
       {.unit = "m^2/(Pa*s)",
        .range = positive(),
-       .doc = "Rate over difference of pressure. Without it, in rock it follows from the mesh, the radius and "
-              "the skin; in a fracture the well has the pressure of its cell."});
+       .doc = "Rate over difference of pressure to the cells around it. Without it, in rock it follows from the "
+              "mesh, the radius and the skin; in a fracture the well has the pressure at its point."});
 }
 
 Spec place_spec(Perforation& place) {

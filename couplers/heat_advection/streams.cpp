@@ -55,10 +55,13 @@ void append_wells(const StreamSources& sources, const Field* pressure, bool only
   for (int k = 0; k < static_cast<int>(sources.wells->places().size()); ++k) {
     const AroundWell& around = sources.wells->surroundings()[k];
     if (around.pressure != pressure) continue;
-    if (only_own_cells && sources.mesh.cell_rank[around.cell] != parallel::rank()) continue;
-    Stream stream{around.cell, sources.wells->rate().now()[k], Stream::From::well, sources.wells->places()[k].well};
-    stream.is_outside = true;
-    streams.push_back(with_flux(stream, Stream::Flux::well, k, 1));
+    for (const auto& [cell, share] : around.shares) {
+      if (only_own_cells && sources.mesh.cell_rank[cell] != parallel::rank()) continue;
+      const double rate = share * sources.wells->rate().now()[k];
+      Stream stream{cell, rate, Stream::From::well, sources.wells->places()[k].well};
+      stream.is_outside = true;
+      streams.push_back(with_flux(stream, Stream::Flux::well, k, share));
+    }
   }
 }
 

@@ -14,11 +14,11 @@ namespace {
 
 constexpr double noticeable_part_of_rates = 1e-6;  // of the largest of all rates of wells: less is round-off
 
-/// What a well is open to, with the temperatures there.
+/// A cell to which a well is open at one of its places, with its share of the rate there and with its temperature.
 struct Opening {
   int place, cell;
   bool is_fracture;
-  double rate, temperature;
+  double share, rate, temperature;
 };
 
 std::vector<Opening> openings(const HeatOfWells& heat, int well) {
@@ -29,32 +29,36 @@ std::vector<Opening> openings(const HeatOfWells& heat, int well) {
     const AroundWell& around = wells.surroundings()[k];
     for (const HeatOfCells* medium : {&heat.rock, &heat.fractures})
       if (medium->temperature && medium->pressure == around.pressure)
-        openings.push_back({k, around.cell, medium == &heat.fractures, wells.rate().now()[k],
-                            medium->temperature->now()[around.cell]});
+        for (const auto& [cell, share] : around.shares)
+          openings.push_back({k, cell, medium == &heat.fractures, share, share * wells.rate().now()[k],
+                              medium->temperature->now()[cell]});
   }
   return openings;
 }
 
 WellMixture mixture(const std::vector<Opening>& openings, std::optional<double> given) {
-  double net = 0;
-  for (const Opening& each : openings) net += each.rate;
+  double net = 0, places = 0;
+  for (const Opening& each : openings) {
+    net += each.rate;
+    places += each.share;
+  }
   const bool from_outside = given && net > 0;
   double flow = from_outside ? net : 0, heat = from_outside ? net * *given : 0, mean = 0;
   for (const Opening& each : openings) {
     flow += std::max(-each.rate, 0.0);
     heat += std::max(-each.rate, 0.0) * each.temperature;
-    mean += each.temperature / static_cast<double>(openings.size());
+    mean += each.share * each.temperature / places;
   }
   WellMixture mixture;
   mixture.temperature = flow > 0 ? heat / flow : mean;
   SPREKK_ASSERT(std::isfinite(mixture.temperature), flow, heat);
   for (const Opening& each : openings) {
     const bool flows_in = flow > 0 && each.rate < 0;
-    const double part = flow > 0 ? std::max(-each.rate, 0.0) / flow : 1.0 / static_cast<double>(openings.size());
-    if (part > 0) (each.is_fracture ? mixture.by_fractures : mixture.by_rock).push_back({each.cell, part});
+    const double part = flow > 0 ? std::max(-each.rate, 0.0) / flow : each.share / places;
+    if (part != 0) (each.is_fracture ? mixture.by_fractures : mixture.by_rock).push_back({each.cell, part});
     double by_rate = flows_in ? (mixture.temperature - each.temperature) / flow : 0;
     if (from_outside) by_rate += (*given - mixture.temperature) / flow;
-    if (by_rate != 0) mixture.by_rate.push_back({each.place, by_rate});
+    if (by_rate != 0) mixture.by_rate.push_back({each.place, each.share * by_rate});
   }
   return mixture;
 }

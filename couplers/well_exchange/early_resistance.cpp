@@ -20,14 +20,16 @@ double bore_hole(double x) { return std::cyl_bessel_k(0.0, x) / (x * std::cyl_be
 
 }  // namespace
 
-std::optional<EarlyResistance> early_resistance(const Mesh& mesh, const MatrixFluxes& fluxes, int middle,
+std::optional<EarlyResistance> early_resistance(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source,
                                                 const Tensor& mobility, double bore) {
   SPREKK_EXPECT(bore > 0, bore);
-  const WellPatch patch(mesh, fluxes, middle, mobility);
+  const WellPatch patch(mesh, fluxes, source, mobility);
   if (patch.is_empty()) return std::nullopt;
   EarlyResistance early;
   early.log_of_radii = -patch.steady_pressure() - std::log(bore);
-  const double first = first_scale * bore * bore, last = last_scale * mesh.cell_measure[middle];
+  double area = 0;
+  for (const auto& [cell, share] : source.shares) area += share * mesh.cell_measure[cell];
+  const double first = first_scale * bore * bore, last = last_scale * area;
   if (!(early.log_of_radii > 0 && first < last)) return early;  // refused by the caller
   for (int k = 0; k < early_terms; ++k)
     early.scales[k] = first * std::pow(last / first, static_cast<double>(k) / (early_terms - 1));

@@ -5,14 +5,14 @@
 #include <optional>
 
 #include "components/capabilities/fluid_fluxes.hpp"
-#include "framework/mesh/mesh.hpp"
+#include "framework/discretization/point_source.hpp"
 
 namespace sprekk::couplers {
 
 /// The number of terms of a resistance that changes with time.
 constexpr int early_terms = 12;
 
-/// The difference of the pressures of a well and of its cell after a rate q has begun at the time 0:
+/// The difference of the pressures of a well and of the cells at its point after a rate q has begun at the time 0:
 ///   p_well − p_cell = q/(2 pi sqrt(det M)) (ln(r_e/r_w) + sum over k of weight_k exp(−c t/scale_k)),
 /// with the diffusivity c in the metric of rho (WellPatch). A mesh does not resolve a flow that has not left the cell
 /// of the well, so that its pressure with the steady index alone is late by about h^2/(8 c) on squares. The terms
@@ -25,9 +25,10 @@ struct EarlyResistance {
   std::array<double, early_terms> scales{};   ///< m^2
 };
 
-/// `bore`: the radius of the bore hole in the metric of rho, m. None where the cell touches the boundary or a fracture.
+/// `bore`: the radius of the bore hole in the metric of rho, m. None where a cell of the source touches the boundary or
+/// a fracture.
 /// Throws std::invalid_argument as WellPatch does.
-std::optional<EarlyResistance> early_resistance(const Mesh& mesh, const MatrixFluxes& fluxes, int middle,
+std::optional<EarlyResistance> early_resistance(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source,
                                                 const Tensor& mobility, double bore);
 
 }  // namespace sprekk::couplers

@@ -7,9 +7,9 @@
 
 namespace sprekk::couplers {
 
-std::optional<double> equivalent_radius(const Mesh& mesh, const MatrixFluxes& fluxes, int middle,
+std::optional<double> equivalent_radius(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source,
                                         const Tensor& mobility) {
-  const WellPatch patch(mesh, fluxes, middle, mobility);
+  const WellPatch patch(mesh, fluxes, source, mobility);
   if (patch.is_empty()) return std::nullopt;
   return std::exp(-patch.steady_pressure());
 }

@@ -4,19 +4,19 @@
 #include <optional>
 
 #include "components/capabilities/fluid_fluxes.hpp"
-#include "framework/mesh/mesh.hpp"
+#include "framework/discretization/point_source.hpp"
 
 namespace sprekk::couplers {
 
 /// The radius r_e (m) at which a line source in rock of one mobility M without end,
 ///   p = −q/(2 pi sqrt(det M)) ln rho,  rho^2 = sqrt(det M) x·M^-1 x,
-/// has the pressure that a mesh gives the cell with the source q. Peaceman's radius (1978, 1983), found as he found it:
-/// the discrete equations are solved around the cell, with the pressure of the source prescribed in the cells around a
+/// has the pressure that a mesh has at the point of the source q. Peaceman's radius (1978, 1983), found as he found it:
+/// the discrete equations are solved around the point, with the pressure of the source prescribed in the cells around a
 /// patch (WellPatch). So it is right for any shape of cells, any anisotropy and any discretization with
-/// unknowns on cells. On squares with the two-point flux it is 0.198 h. None where the cell touches the boundary or a
-/// fracture. Throws std::invalid_argument, with the reason, for a discretization with unknowns on faces, and for one
-/// with nonlinear fluxes.
-std::optional<double> equivalent_radius(const Mesh& mesh, const MatrixFluxes& fluxes, int middle,
+/// unknowns on cells. On squares with the two-point flux it is 0.198 h in the middle of a cell. None where a cell of
+/// the source touches the boundary or a fracture. Throws std::invalid_argument, with the reason, for a discretization
+/// with unknowns on faces, and for one with nonlinear fluxes.
+std::optional<double> equivalent_radius(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source,
                                         const Tensor& mobility);
 
 /// The radius of the circle that replaces a bore hole (m) in the metric of rho, in which it is an ellipse: Peaceman

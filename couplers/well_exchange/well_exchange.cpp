@@ -13,8 +13,10 @@
 #include "components/capabilities/wells.hpp"
 #include "couplers/well_exchange/early_resistance.hpp"
 #include "couplers/well_exchange/equivalent_radius.hpp"
+#include "couplers/well_exchange/well_patch.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/dense/symmetric_eigen.hpp"
+#include "framework/discretization/point_source.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
@@ -34,13 +36,14 @@ struct WellExchangeOptions {
   }
 };
 
-/// Determines the rate q of each place of the wells, out of the well: R q = p_well − p, with the pressure p of the cell
-/// that the place lies in. In rock R = (ln(r_e/r_w) + skin)/(2 pi sqrt(det M)), Peaceman's index, and what a rate that
-/// changes adds to it (EarlyResistance): weight_k m_k/(2 pi sqrt(det M)), dm_k/dt = dq/dt − m_k c/scale_k.
-/// In a fracture R is zero unless an index is given: fluid flows from the middle of the cell to both sides, and the
-/// pressure there is that of the cell. R = 1/index where the scene gives one. The rows are pressures: as rates, a place
-/// with a small index would be judged by what flows at one with a large index. The terms of the rock are constant,
-/// whichever limit of the well binds: what switches is on the side of the wells.
+/// Determines the rate q of each place of the wells, out of the well: R q = p_well − p, with the pressure p of the
+/// cells at the place, among which the rate is shared (point_source, FractureFluid::shares_at). In rock R =
+/// (ln(r_e/r_w) + skin)/(2 pi sqrt(det M)), Peaceman's index, and what a rate that changes adds to it
+/// (EarlyResistance): weight_k m_k/(2 pi sqrt(det M)), dm_k/dt = dq/dt − m_k c/scale_k. In a fracture R is that of the
+/// fracture between the place and the centres of cells (FractureFluid::rise_at), which is zero in the middle of a cell.
+/// R = 1/index where the scene gives one. The rows are pressures: as rates, a place with a small index would be judged
+/// by what flows at one with a large index. The terms of the rock are constant, whichever limit of the well binds: what
+/// switches is on the side of the wells.
 class WellExchange : public Coupler {
  public:
   WellExchange(const CouplerContext& context, const WellExchangeOptions&)
@@ -54,39 +57,30 @@ class WellExchange : public Coupler {
         fracture_weight_(context.find<BuoyantFractures>()),
         places_(wells_.places()),
         cells_(places_.size(), none),
+        around_(places_.size()),
         log_of_radii_(Vector::Zero(count())),
         early_(places_.size()),
         diffusivity_(Vector::Zero(count())),
         memory_(context.fields.add(mesh_, memory_spec(context, wells_.rate(), count()))),
         resistance_(Vector::Zero(count())),
+        level_(Vector::Zero(count())),
         weight_(Vector::Zero(count())) {
     context.determine(wells_.rate());
-    std::vector<Triplet> of_rock, of_fracture, of_wells;
-    Vector around = Vector::Zero(count());
+    std::vector<Triplet> of_wells;
     for (int k = 0; k < count(); ++k) {
       of_wells.emplace_back(k, places_[k].well, -1.0);
-      if (places_[k].fracture) {
-        cells_[k] = fracture_cell(places_[k], context);
-        of_fracture.emplace_back(k, cells_[k], 1.0);
-        around[k] = fracture_->pressure().now()[cells_[k]];
-        continue;
-      }
-      cells_[k] = rock_cell(k);
-      of_rock.emplace_back(k, cells_[k], 1.0);
-      around[k] = rock_->initial_pressure()[cells_[k]];
+      places_[k].fracture ? open_to_fracture(k, context) : open_to_rock(k);
     }
-    std::vector<AroundWell> surroundings;
-    for (int k = 0; k < count(); ++k)
-      surroundings.push_back({places_[k].fracture ? &fracture_->pressure() : &rock_->pressure(), cells_[k]});
-    wells_.accept_surroundings(std::move(surroundings));
-    find_weights();
-    around -= weight_;
-    wells_.check_limits(around);
-    wells_.pressure().set_both(mean_around(around));
     of_wells_ = operator_of(of_wells, wells_.pressure().size());
-    if (rock_) use(of_rock, mesh_.cell_count(), of_rock_, into_rock_);
-    if (fracture_) use(of_fracture, mesh_.fracture_cell_count(), of_fracture_, into_fracture_);
+    find_weights();
+    use(around_);
+    Vector around = level_ - weight_;
+    if (rock_) around += of_rock_.entries() * rock_->initial_pressure();
+    if (fracture_) around += of_fracture_.entries() * fracture_->pressure().now();
+    wells_.begin_with(around);
   }
+
+  bool allows_stages() const override { return true; }
 
   /// Wells and the cells around them must be solved together, or a rate would count differently on both sides.
   std::vector<Dependence> dependences() const override {
@@ -104,7 +98,9 @@ class WellExchange : public Coupler {
 
   void begin_step(const StepTime&) override {
     Vector of_wells(count());
+    std::vector<AroundWell> around = around_;
     for (int k = 0; k < count(); ++k) {
+      if (places_[k].fracture) around[k].shares = fracture_->shares_at(cells_[k], places_[k].at);
       if (places_[k].index)
         resistance_[k] = 1 / *places_[k].index;
       else if (!places_[k].fracture)
@@ -118,6 +114,7 @@ class WellExchange : public Coupler {
       SPREKK_ASSERT(std::isfinite(scale) && scale > 0, k, scale);
     }
     wells_.scale(of_wells);
+    use(std::move(around));
   }
 
   void assemble(Assembly& assembly, const StepTime& step) const override {
@@ -130,8 +127,9 @@ class WellExchange : public Coupler {
     if (fracture_) assembly.linear(rate, of_fracture_, fracture_->pressure());
     Vector of_rate = resistance_;
     add_early(assembly, step, of_rate);
+    add_rise(assembly, of_rate);
     assembly.add(rate, of_rate.cwiseProduct(rate.now()));
-    if (!weight_.isZero(0)) assembly.add(rate, -weight_);
+    if (const Vector known = level_ - weight_; !known.isZero(0)) assembly.add(rate, known);
     assembly.diagonal(rate, rate, of_rate);
   }
 
@@ -195,6 +193,42 @@ class WellExchange : public Coupler {
     into_cells = operator_of(transposed, cells, count());
   }
 
+  /// Shares change where fractures open; the operators of the rock stay.
+  void use(std::vector<AroundWell> around) {
+    const auto is_same = [](const AroundWell& one, const AroundWell& other) { return one.shares == other.shares; };
+    if (has_operators_ && std::ranges::equal(around, around_, is_same)) return;
+    around_ = std::move(around);
+    wells_.accept_surroundings(around_);
+    std::vector<Triplet> of_rock, of_fracture;
+    for (int k = 0; k < count(); ++k) {
+      const bool in_fracture = places_[k].fracture.has_value();
+      level_[k] = 0;
+      for (const auto& [cell, share] : around_[k].shares) {
+        (in_fracture ? of_fracture : of_rock).emplace_back(k, cell, share);
+        if (in_fracture) level_[k] += share * weight_between(k, mesh_.fracture_cells[cell].center, middle(k));
+      }
+    }
+    if (rock_ && !has_operators_) use(of_rock, mesh_.cell_count(), of_rock_, into_rock_);
+    if (fracture_) use(of_fracture, mesh_.fracture_cell_count(), of_fracture_, into_fracture_);
+    has_operators_ = true;
+  }
+
+  /// Adds the resistance of fractures between places and the centres of cells.
+  void add_rise(Assembly& assembly, Vector& of_rate) const {
+    if (!fracture_) return;
+    std::vector<Triplet> by_aperture;
+    for (int k = 0; k < count(); ++k) {
+      if (!places_[k].fracture || places_[k].index) continue;
+      const FractureFluid::Rise rise = fracture_->rise_at(cells_[k], places_[k].at);
+      of_rate[k] += rise.value;
+      for (const auto& [cell, by] : rise.by_aperture) by_aperture.emplace_back(k, cell, by * wells_.rate().now()[k]);
+    }
+    if (by_aperture.empty() || !assembly.wants_derivatives()) return;
+    SparseMatrix matrix(count(), mesh_.fracture_cell_count());
+    matrix.setFromTriplets(by_aperture.begin(), by_aperture.end());
+    assembly.derivative(wells_.rate(), fracture_->aperture(), std::move(matrix));
+  }
+
   void supply(Assembly& assembly, const Field& pressure, const Operator& into, double dt) const {
     if (!assembly.has_row(pressure)) return;
     assembly.linear(pressure, into, wells_.rate(), -dt);
@@ -205,8 +239,12 @@ class WellExchange : public Coupler {
     if (places_[place].fracture) return fracture_weight_ ? fracture_weight_->weight_between(from, to) : 0;
     return rock_weight_ ? rock_weight_->weight_between(from, to) : 0;
   }
+  /// Where the pressure around a place is that of the flow: in rock the mean place of the cells that share its rate.
   Point middle(int place) const {
-    return places_[place].fracture ? mesh_.fracture_cells[cells_[place]].center : mesh_.cell_center[cells_[place]];
+    if (places_[place].fracture) return fracture_->point_at(cells_[place], places_[place].at);
+    Point mean = Point::Zero();
+    for (const auto& [cell, share] : around_[place].shares) mean += share * mesh_.cell_center[cell];
+    return mean;
   }
 
   /// A column of fluid at rest stands in each well; the pressure of the well is that at its highest place.
@@ -219,13 +257,9 @@ class WellExchange : public Coupler {
     for (int k = 0; k < count(); ++k) weight_[k] = weight_between(k, middle(highest[places_[k].well]), middle(k));
   }
 
-  Vector mean_around(const Vector& around) const {
-    Vector sums = Vector::Zero(wells_.pressure().size()), counts = sums;
-    for (int k = 0; k < count(); ++k) {
-      sums[places_[k].well] += around[k];
-      counts[places_[k].well] += 1;
-    }
-    return sums.cwiseQuotient(counts);
+  void open_to_fracture(int k, const CouplerContext& context) {
+    cells_[k] = fracture_cell(places_[k], context);
+    around_[k] = {&fracture_->pressure(), {{cells_[k], 1.0}}};
   }
 
   int fracture_cell(const WellPlace& place, const CouplerContext& context) const {
@@ -297,8 +331,8 @@ class WellExchange : public Coupler {
     if (!known.isZero(0)) assembly.add(rate, known);
   }
 
-  /// The cell of a place in rock; finds its index.
-  int rock_cell(int k) {
+  /// The cells of a place in rock; finds its index.
+  void open_to_rock(int k) {
     const WellPlace& place = places_[k];
     if (!rock_ || !fluxes_)
       throw InputError(place.origin, "well '" + place.name + "' is open to rock without fluid",
@@ -316,11 +350,18 @@ class WellExchange : public Coupler {
     if (!(mobility.determinant() > 0))
       throw InputError(place.origin, "well '" + place.name + "' is open to rock that lets no fluid through",
                        "its permeability is zero", "give it a permeability, or move the well");
-    if (place.index) return home;
+    cells_[k] = home;
+    const std::vector<char> is_inner = place.index ? std::vector<char>() : inner_cells(mesh_);
+    const PointSource source = point_source(mesh_, place.at, [&](int cell) {
+      return mesh_.cell_region[cell] == mesh_.cell_region[home] && rock_->is_in_cell(cell) &&
+             conduct_alike(mobility, fluxes_->mobility()[cell]) && (is_inner.empty() || is_inner[cell]);
+    });
+    around_[k] = {&rock_->pressure(), source.shares};
+    if (place.index) return;
     const double bore = radius_of_bore_hole(place.radius, mobility);
     const double effective =
         bore * std::exp(-std::min(place.skin, 0.0));  // rock that conducts well widens the bore hole
-    const std::optional<EarlyResistance> early = resistance_of(place, home, effective);
+    const std::optional<EarlyResistance> early = resistance_of(k, source, effective);
     if (!early)
       throw InputError(place.origin, "the index of well '" + place.name + "' cannot be found",
                        "its cell at " + to_text(mesh_.cell_center[home]) + " touches a side or a fracture",
@@ -333,12 +374,12 @@ class WellExchange : public Coupler {
                                    "{:.3g} m, and its radius is {:.3g} m",
                                    log_of_radii_[k], effective * std::exp(early->log_of_radii), bore),
                        "use larger cells, a smaller radius, or a larger skin");
-    return home;
   }
 
-  std::optional<EarlyResistance> resistance_of(const WellPlace& place, int home, double bore) const {
+  std::optional<EarlyResistance> resistance_of(int k, const PointSource& source, double bore) const {
+    const WellPlace& place = places_[k];
     try {
-      return early_resistance(mesh_, *fluxes_, home, fluxes_->mobility()[home], bore);
+      return early_resistance(mesh_, *fluxes_, source, fluxes_->mobility()[cells_[k]], bore);
     } catch (const std::invalid_argument& error) {
       throw InputError(place.origin, "the index of well '" + place.name + "' is not known for this flow", error.what(),
                        "use matrix_flow/mpfa or matrix_flow/tpfa, or give its 'index'");
@@ -353,15 +394,18 @@ class WellExchange : public Coupler {
   const BuoyantMatrix* rock_weight_;
   const BuoyantFractures* fracture_weight_;
   const std::vector<WellPlace>& places_;
-  std::vector<int> cells_;              ///< of the rock or of the fracture, one a place
+  std::vector<int> cells_;              ///< in which places lie, of the rock or of the fracture
+  std::vector<AroundWell> around_;      ///< what shares the rate of each place
   Vector log_of_radii_;                 ///< ln(r_e/r_w) + skin of places in rock without a given index
   std::vector<EarlyResistance> early_;  ///< one a place; of the others zero
   Vector diffusivity_;                  ///< around places in rock without a given index, m^2/s
   Field& memory_;                       ///< m_k of every place, m^2/s
   Vector resistance_;                   ///< R of a steady flow, Pa s/m^2, one a place
+  Vector level_;                        ///< of a place above the mean of the cells around it, as a pressure, Pa
   Vector weight_;                       ///< of the fluid in the well between its reference and each place, Pa
   Operator of_wells_;                   ///< places × wells: −1
   Operator of_rock_, into_rock_, of_fracture_, into_fracture_;
+  bool has_operators_ = false;
 };
 
 const RegisterCoupler<WellExchange, WellExchangeOptions> registration("well_exchange");

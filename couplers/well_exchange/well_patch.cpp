@@ -28,11 +28,14 @@ bool is_inside(const Mesh& mesh, const std::vector<char>& inner, int cell) {
   return true;
 }
 
-/// The cells whose balances are solved: those around a cell, layer by layer, as long as none touches a side.
-std::set<int> patch(const Mesh& mesh, int middle) {
+/// The cells whose balances are solved: those around a source, layer by layer, as long as none touches a side.
+std::set<int> patch(const Mesh& mesh, const PointSource& source) {
   const std::vector<char> inner = inner_nodes(mesh);
-  if (!is_inside(mesh, inner, middle)) return {};
-  std::set<int> cells = {middle};
+  std::set<int> cells;
+  for (const auto& [cell, share] : source.shares) {
+    if (!is_inside(mesh, inner, cell)) return {};
+    cells.insert(cell);
+  }
   for (int layer = 0; layer < most_layers; ++layer) {
     std::set<int> more = cells;
     for (const int cell : cells)
@@ -48,10 +51,17 @@ std::set<int> patch(const Mesh& mesh, int middle) {
 
 }  // namespace
 
-WellPatch::WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, int middle, const Tensor& mobility)
+std::vector<char> inner_cells(const Mesh& mesh) {
+  const std::vector<char> inner = inner_nodes(mesh);
+  std::vector<char> cells(mesh.cell_count());
+  for (int c = 0; c < mesh.cell_count(); ++c) cells[c] = is_inside(mesh, inner, c);
+  return cells;
+}
+
+WellPatch::WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source, const Tensor& mobility)
     : size_(std::sqrt(mobility.determinant())) {
-  SPREKK_EXPECT(size_ > 0 && is_index(middle, mesh.cell_count()), size_, middle);
-  const std::set<int> cells = patch(mesh, middle);
+  SPREKK_EXPECT(size_ > 0, size_);
+  const std::set<int> cells = patch(mesh, source);
   if (cells.empty()) return;
   std::vector<char> nodes(mesh.node_count(), 0);
   std::vector<int> place(mesh.cell_count(), none);
@@ -61,7 +71,7 @@ WellPatch::WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, int middle, c
     areas_.push_back(mesh.cell_measure[cell]);
     for (const int node : mesh.cell_nodes[cell]) nodes[node] = 1;
   }
-  middle_ = place[middle];
+  for (const auto& [cell, share] : source.shares) source_.emplace_back(place[cell], share);
   const FluxOperators operators = fluxes.fluxes_around(nodes, mobility);
   if (operators.faces.flux.rows() > 0) throw std::invalid_argument("its discretization has unknowns on faces");
   if (operators.limited[0].cell.rows() > 0) throw std::invalid_argument("its fluxes are not linear in the pressures");
@@ -75,20 +85,20 @@ WellPatch::WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, int middle, c
         if (place[other] != none) {
           entries_.emplace_back(place[cell], place[other], sign * entry.value());
         } else if (entry.value() != 0) {
-          const Point x = mesh.cell_center[other] - mesh.cell_center[middle];
+          const Point x = mesh.cell_center[other] - source.at;
           outside_.push_back({place[cell], sign * entry.value(), std::sqrt(x.dot(inverse * x))});
         }
       }
     }
 }
 
-/// The balances sqrt(det M) A decay p + outflow(p) = 2 pi sqrt(det M) at the source and 0 elsewhere.
+/// The balances sqrt(det M) A decay p + outflow(p) = 2 pi sqrt(det M) share at the source and 0 elsewhere.
 template <class Source>
 double WellPatch::pressure(double decay, const Source& source) const {
   SPREKK_EXPECT(!is_empty());
   const int count = static_cast<int>(cells_.size());
   Vector right = Vector::Zero(count);
-  right[middle_] = 2 * std::numbers::pi * size_;
+  for (const auto& [cell, share] : source_) right[cell] += share * (2 * std::numbers::pi * size_);
   for (const Outside& each : outside_) right[each.row] -= each.weight * source(each.distance);
   std::vector<Triplet> entries = entries_;
   for (int i = 0; i < count; ++i) entries.emplace_back(i, i, size_ * areas_[i] * decay);
@@ -96,7 +106,10 @@ double WellPatch::pressure(double decay, const Source& source) const {
   system.setFromTriplets(entries.begin(), entries.end());
   const bool is_regular = solver_.factorize(system);
   SPREKK_ASSERT(is_regular, count);
-  return solver_.solve(right)[middle_];
+  const Vector pressure = solver_.solve(right);
+  double at_point = 0;
+  for (const auto& [cell, share] : source_) at_point += share * pressure[cell];
+  return at_point;
 }
 
 double WellPatch::steady_pressure() const {

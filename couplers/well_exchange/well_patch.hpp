@@ -4,26 +4,30 @@
 #include <vector>
 
 #include "components/capabilities/fluid_fluxes.hpp"
+#include "framework/discretization/point_source.hpp"
 #include "framework/linear/direct/sparse_lu.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {
 
-/// Up to `most_layers` layers of cells around a cell with a source, in rock of one mobility M; with rho, the distance
-/// in the metric rho^2 = sqrt(det M) x·M^-1 x. Pressures p are those of a source of the rate q times 2 pi sqrt(det
-/// M)/q.
+/// Whether each cell touches neither a side nor a fracture, one flag a cell.
+std::vector<char> inner_cells(const Mesh& mesh);
+
+/// Up to `most_layers` layers of cells around the cells of a point source, in rock of one mobility M; with rho, the
+/// distance in the metric rho^2 = sqrt(det M) x·M^-1 x. Pressures p are those of a source of the rate q times 2 pi
+/// sqrt(det M)/q.
 class WellPatch {
  public:
-  /// Empty where the cell touches the boundary or a fracture. Throws std::invalid_argument, with the reason, for a
-  /// discretization with unknowns on faces, and for one with nonlinear fluxes.
-  WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, int middle, const Tensor& mobility);
+  /// Empty where one of the source's cells touches the boundary or a fracture. Throws std::invalid_argument, with the
+  /// reason, for a discretization with unknowns on faces, and for one with nonlinear fluxes.
+  WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source, const Tensor& mobility);
 
   bool is_empty() const { return cells_.empty(); }
-  /// The pressure that a constant source of a steady flow gives its cell, with those of a line source, −ln rho, in the
-  /// cells around the patch.
+  /// The pressure that a constant source of a steady flow has at its point, with those of a line source, −ln rho, in
+  /// the cells around the patch.
   double steady_pressure() const;
-  /// s times the Laplace transform of the pressure of the cell after a source has begun, with s = c·`decay` (1/m^2) and
-  /// the diffusivity c: K_0(rho sqrt(decay)) of a line source in the cells around the patch.
+  /// s times the Laplace transform of the pressure at the point after a source has begun, with s = c·`decay` (1/m^2)
+  /// and the diffusivity c: K_0(rho sqrt(decay)) of a line source in the cells around the patch.
   double transformed_pressure(double decay) const;
 
  private:
@@ -39,8 +43,8 @@ class WellPatch {
   std::vector<double> areas_;
   std::vector<Triplet> entries_;  ///< entries of the steady equations, m^2/(Pa s)
   std::vector<Outside> outside_;
-  int middle_ = none;  ///< index of the cell with the source in cells_
-  double size_;        ///< sqrt(det M)
+  std::vector<std::pair<int, double>> source_;  ///< indices in cells_ and shares
+  double size_;                                 ///< sqrt(det M)
   /// Keeps the ordering of its first matrix.
   mutable SparseLu solver_;
 };

@@ -103,13 +103,25 @@ class PointInjection(SceneRuns):
                     for one in pressures:
                         self.assertAlmostEqual(one / pressures[0], 1, delta=1e-9)
 
-    def test_neighbours_with_a_prescribed_pressure_take_nothing(self):
-        """The well is between the centres of two cells: with a pressure in the other one its own takes all, with one in its own none enters."""
-        for at, rate in (("[0.05 m, 0 m]", RATE), ("[-0.05 m, 0 m]", 0)):
-            scene = SCENE.format(start="[-1 m, 0 m]", end="[1 m, 0 m]", size=0.1, well="[-0.03 m, 0 m]", rate=RATE,
+    def test_beside_a_pressure_that_is_prescribed_at_a_point(self):
+        """Three straight lines of pressure: from one end to the well, to the point that is held, and to the other end."""
+        for well, held, given in ((-0.33, 0.42, 1e3), (-0.3, 0.05, 0.0), (-0.03, 0.26, 1e2), (0.12, -0.41, 1e3)):
+            scene = SCENE.format(start="[-1 m, 0 m]", end="[1 m, 0 m]", size=0.1, well=f"[{well} m, 0 m]", rate=RATE,
                                  probes="p: {of: conduit.pressure, at: [0.5 m, 0 m]}")
-            table = self.run_scene(self.write(scene), f"components.conduit.prescribed={{held: {{at: {at}, pressure: 0 Pa}}}}").history
-            self.assertAlmostEqual(table["conduit.well.rate[m^2/s]"][-1], rate, delta=1e-20)
+            table = self.run_scene(self.write(scene),
+                                   f"components.conduit.prescribed={{held: {{at: [{held} m, 0 m], pressure: {given} Pa}}}}").history
+            between, to_end = abs(held - well), 1 + well if held > well else 1 - well
+            pressure = (RATE / MOBILITY + given / between) / (1 / to_end + 1 / between)
+            rate = MOBILITY * ((given - pressure) / between + given / (1 - held if held > well else 1 + held))
+            self.assertAlmostEqual(table["conduit.well.rate[m^2/s]"][-1], RATE, delta=1e-20)
+            self.assertAlmostEqual(table["conduit.well.pressure[Pa]"][-1] / pressure, 1, delta=1e-9)
+            self.assertAlmostEqual(table["conduit.held.rate[m^2/s]"][-1] / rate, 1, delta=1e-9)
+
+    def test_in_a_fracture_with_a_prescribed_pressure_nothing_enters(self):
+        scene = SCENE.format(start="[-1 m, 0 m]", end="[1 m, 0 m]", size=0.1, well="[-0.03 m, 0 m]", rate=RATE,
+                             probes="p: {of: conduit.pressure, at: [0.5 m, 0 m]}")
+        table = self.run_scene(self.write(scene), "components.conduit.prescribed={held: {fracture: main, pressure: 0 Pa}}").history
+        self.assertAlmostEqual(table["conduit.well.rate[m^2/s]"][-1], 0, delta=1e-20)
 
     @on_two_processes
     def test_two_processes(self):

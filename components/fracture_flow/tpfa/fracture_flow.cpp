@@ -57,6 +57,15 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                 .role = Role::unknown(BlockKind::interface),
                 .unit = "m",
                 .doc = "The part of the aperture that has no fluid, where the pressure is as low as it can be"});
+  const auto is_point = [](const auto& prescribed) { return prescribed.second.where.at.has_value(); };
+  if (const auto points = std::ranges::count_if(options_.prescribed, is_point); points > 0)
+    let_in_at_points_ = &context.fields.add(mesh_, {.owner = context.name,
+                                                    .name = "let_in",
+                                                    .location = Location::listed,
+                                                    .listed = static_cast<int>(points),
+                                                    .role = Role::unknown(BlockKind::interface),
+                                                    .unit = "m^2/s",
+                                                    .doc = "What enters at points with a prescribed pressure"});
   const std::vector<Place> places = fracture_cell_places(mesh_);
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
   initial_aperture_ = property(options_.initial_aperture).values();
@@ -254,8 +263,9 @@ StoredFluid FractureFlow::stored_fluid(int cell) const {
 
 void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assemble_fluxes(assembly, step);
-  if (!assembly.has_row(pressure_)) return;
   BalanceRows fluid(assembly, pressure_, "fluid");
+  assemble_prescribed_points(assembly, step);
+  if (!assembly.has_row(pressure_)) return;
   SPREKK_EXPECT(step.dt > 0, step.dt);
   SPREKK_EXPECT(source_.size() == mesh_.fracture_cell_count(), source_.size(), mesh_.fracture_cell_count());
   const int count = mesh_.fracture_cell_count();
@@ -312,6 +322,9 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
     sums[3 * i] += mesh_.fracture_cells[i].measure * stored_fluid(i).volume;
     if (!is_prescribed_[i]) sums[3 * i + 1] += step.dt * source_[i];  // else not solved
   }
+  for (std::size_t k = 0; k < prescribed_points_.size(); ++k)
+    for (const auto& [cell, share] : prescribed_points_[k].shares)
+      sums[3 * cell + 1] += step.dt * share * let_in_at_points_->now()[static_cast<Eigen::Index>(k)];
   for (const Link& link : links_)
     if (link.second == none) sums[3 * link.first + 2] += step.dt * flux_.now()[link.point];
   cumulative_.set(std::move(sums));
@@ -343,7 +356,7 @@ std::vector<double> FractureFlow::switch_times() const {
 void FractureFlow::hold_constants(ConstantModes& modes) const {
   const bool has_open_end =
       std::any_of(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; });
-  if (has_open_end || !prescribed_.empty() || compressibility_.values().maxCoeff() > 0) return;
+  if (has_open_end || !options_.prescribed.empty() || compressibility_.values().maxCoeff() > 0) return;
   modes.floats(pressure_, origin_,
                "the fluid is incompressible and no pressure is given: any constant may be added to it",
                "give a compressibility, or a pressure under 'prescribed' or 'boundary'");

@@ -81,12 +81,15 @@ class FractureFlow : public Component,
   const std::vector<char>& inhabited_cells() const override { return wet_; }
   bool lives_on_fractures() const override { return true; }
   double viscosity_between_walls(int cell) const override { return options_.is_constant() ? 0 : viscosity_[cell]; }
+  std::vector<std::pair<int, double>> shares_at(int cell, const Point& at) const override;
+  Point point_at(int cell, const Point& at) const override;
+  Rise rise_at(int cell, const Point& at) const override;
   double conductance(int cell) const override {
     return transmissivity(cell).value / mesh_.fracture_cells[cell].measure;
   }
   bool follows_aperture() const override;
   const Field& flux() const override { return flux_; }
-  std::vector<FluidSource> fluid_sources() const override { return sources_; }
+  std::vector<FluidSource> fluid_sources() const override;
   std::vector<FluidReservoir> fluid_reservoirs() const override;
   void accept_rock_fluid(MatrixFluid& rock_fluid, const MatrixWalls& walls) override {
     rock_fluid_ = &rock_fluid;
@@ -178,10 +181,37 @@ class FractureFlow : public Component,
   }
   StoredFluid stored_fluid(int cell) const;  ///< in this step, m
   std::vector<int> cells_of(const FracturePlace& where) const;
-  /// The cells that an injection at a place goes into, and their shares, which add up to 1.
-  std::vector<std::pair<int, double>> shares_of(const FracturePlace& where) const;
-  std::vector<int> cells_at(const FracturePoint& end) const;
-  double pressure_at(const FracturePlace& where, double rate) const;  ///< Pa
+  /// The end of a cell that is nearer to a point, and how far the point is on the way there from the centre. Where no
+  /// other cell meets this one the point counts as the centre.
+  struct Spot {
+    int end;        ///< a fracture point
+    double to_end;  ///< 0 to 1, but for what counts as equally near
+  };
+  Spot spot(int cell, const Point& at) const;
+  /// From the centre of a cell to one of its ends, m^2/(Pa s), with derivatives by the apertures of cells.
+  struct HalfCell {
+    int cell;
+    double conductance;
+    std::vector<std::pair<int, double>> by_aperture;
+  };
+  std::vector<HalfCell> halves_at(int point, int home) const;
+  bool is_alone(const Spot& spot, const std::vector<HalfCell>& halves, int home) const;
+  /// The cells of a whole fracture, and their shares, which add up to 1.
+  std::vector<std::pair<int, double>> shares_by_length(const FracturePlace& where) const;
+  /// A point at which fluid enters, or where a pressure is prescribed.
+  struct OpenPoint {
+    std::string name;
+    int cell;
+    Point at;
+    double value;                                     ///< Pa where its pressure is prescribed, else the rate, m^2/s
+    std::vector<std::pair<int, double>> shares = {};  ///< in this step
+    double level = 0;                                 ///< Pa, of the point above the mean of these cells
+  };
+  void share(OpenPoint& point) const;
+  void share_points();
+  double pressure_at(const OpenPoint& point, double rate) const;  ///< Pa
+  void check_points_apart() const;
+  void assemble_prescribed_points(Assembly& assembly, const StepTime& step) const;
   std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);
   void prescribe(const StepTime& step);
@@ -196,10 +226,11 @@ class FractureFlow : public Component,
   Field& pressure_;
   Field& flux_;
   Field& aperture_;
-  Field* empty_ = nullptr;  ///< m, the part of the aperture without fluid; only with cavitation
-  double bound_scale_ = 1;  ///< m/Pa, between e and p − p_c
-  Field& cumulative_;       ///< (stored, injected, outflow) of each cell since the start, m^2
-  std::vector<char> wet_;   ///< one flag a cell: whether there is a flow; empty where there is a flow everywhere
+  Field* let_in_at_points_ = nullptr;  ///< m^2/s, at each of prescribed_points_; only with such points
+  Field* empty_ = nullptr;             ///< m, the part of the aperture without fluid; only with cavitation
+  double bound_scale_ = 1;             ///< m/Pa, between e and p − p_c
+  Field& cumulative_;                  ///< (stored, injected, outflow) of each cell since the start, m^2
+  std::vector<char> wet_;  ///< one flag a cell: whether there is a flow; empty where there is a flow everywhere
   Vector initial_aperture_;
   std::unique_ptr<HydraulicLaw> law_;
   Vector held_aperture_;       ///< for the cubic law, or empty for the present one
@@ -214,12 +245,13 @@ class FractureFlow : public Component,
   std::vector<CrossingFill> crossing_fills_;                     ///< of each junction
   std::vector<Link> links_;
   Vector source_;                     ///< m^2/s, one a cell
-  std::vector<FluidSource> sources_;  ///< the same by name
+  std::vector<FluidSource> sources_;  ///< the same by name, in the order of Options::injections
   struct Prescribed {
     int cell;
     double pressure, scale;
   };
-  std::vector<Prescribed> prescribed_;
+  std::vector<Prescribed> prescribed_;  ///< whole fractures
+  std::vector<OpenPoint> injected_points_, prescribed_points_;
   mutable std::vector<double> let_in_;  ///< m^2/s, at each of prescribed_; found when their rows are replaced
   double step_length_ = 0;              ///< s
   EnteringDensity entering_density_ = EnteringDensity::of_step;

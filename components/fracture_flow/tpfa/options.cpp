@@ -22,8 +22,8 @@ Spec injection_spec(Injection& injection) {
 }
 
 Spec prescribed_spec(PrescribedPressure& prescribed) {
-  Spec spec("prescribed pressure", "A part of a fracture whose pressure is given instead of its balance of fluid.");
-  add_where(spec, prescribed.where, "The nearest cell to this point");
+  Spec spec("prescribed pressure", "A point or a whole fracture whose pressure is given.");
+  add_where(spec, prescribed.where, "At the point of a fracture that is nearest to this one");
   spec.data("pressure", prescribed.pressure, {.unit = "Pa", .doc = "The pressure.", .required = true, .in_time = true});
   return spec;
 }

@@ -13,7 +13,7 @@
 
 namespace sprekk::fracture_flow {
 
-/// A place on the fractures: the cell of a fracture that is nearest to a point, a whole fracture, or all of them.
+/// A place on the fractures: the point of a fracture that is nearest to a given one, a whole fracture, or all of them.
 struct FracturePlace {
   Origin origin;
   std::string fracture;     ///< "" for all
@@ -23,7 +23,7 @@ struct FracturePlace {
 /// A rate of fluid that is injected at a place.
 struct Injection {
   FracturePlace where;
-  Data rate;  ///< m^2/s in all, spread evenly over the length; at a point shared by the two cells around it
+  Data rate;  ///< m^2/s in all, spread evenly over the length; at a point shared by the cells around it
 };
 
 /// A pressure that is prescribed at a place.

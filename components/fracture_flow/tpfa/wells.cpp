@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
+#include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/mesh/point_location.hpp"
@@ -44,9 +44,35 @@ void FractureFlow::check_names() const {
       prescribed_by[cell] = &name;
     }
   }
+  check_points_apart();
   for (const auto& [side, origin] : options_.boundary_origins)
     if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
       throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
+}
+
+/// The pressure between two points with prescribed pressures is not resolved where both lie between the same centres.
+void FractureFlow::check_points_apart() const {
+  constexpr double at_centre = 1e-6;  // of a half cell
+  struct Taken {
+    const std::string* name;
+    Point end;
+  };
+  std::vector<Taken> taken;
+  for (const auto& [name, given] : options_.prescribed) {
+    if (!given.where.at) continue;
+    const int cell = cells_of(given.where).front();
+    const auto [end, to_end] = spot(cell, *given.where.at);
+    if (to_end < at_centre) continue;
+    const Point& position = mesh_.fracture_points[end].position;
+    for (const Taken& other : taken)
+      if ((other.end - position).norm() < at_centre * mesh_.fracture_cells[cell].measure)
+        throw InputError(given.where.origin, "'" + name + "' prescribes a pressure where there is one",
+                         "'" + *other.name +
+                             "' gives a point one that lies between the same centres of cells, around " +
+                             to_text(position),
+                         "use smaller cells there, or remove one of the two");
+    taken.push_back({&name, position});
+  }
 }
 
 /// A place, or a whole fracture, stays what it was at the start of the run: cells that have grown do not belong to it.
@@ -67,51 +93,14 @@ std::vector<int> FractureFlow::cells_of(const FracturePlace& where) const {
   return cells;
 }
 
-/// A whole fracture takes as much in each metre. At a point, between the centre of a cell and its end on that side, the
-/// cell has its share of what lies between both, and all cells that meet at the end the rest, in proportion to the
-/// inverse of their lengths: so the mean place of the fluid is the point. Neighbours that have grown, that are not in
-/// the flow, or whose pressure is prescribed take none.
-std::vector<std::pair<int, double>> FractureFlow::shares_of(const FracturePlace& where) const {
+/// A whole fracture takes as much in each metre.
+std::vector<std::pair<int, double>> FractureFlow::shares_by_length(const FracturePlace& where) const {
   const std::vector<int> cells = cells_of(where);
+  double length = 0;
+  for (const int cell : cells) length += mesh_.fracture_cells[cell].measure;
   std::vector<std::pair<int, double>> shares;
-  if (!where.at) {
-    double length = 0;
-    for (const int cell : cells) length += mesh_.fracture_cells[cell].measure;
-    for (const int cell : cells) shares.emplace_back(cell, mesh_.fracture_cells[cell].measure / length);
-    return shares;
-  }
-  if (cells.empty()) return shares;
-  const int home = cells.front();
-  if (is_prescribed_[home]) return {{home, 1.0}};  // has no effect, and is noted
-  const FractureCell& at = mesh_.fracture_cells[home];
-  const auto end_of = [&](int k) -> const FracturePoint& { return mesh_.fracture_points[at.points[k]]; };
-  const Point along = (end_of(1).position - end_of(0).position).normalized();
-  const double off = (*where.at - at.center).dot(along);
-  const FracturePoint& end = end_of(off < 0 ? 0 : 1);
-  const double to_end = std::abs(off) / (0.5 * at.measure);  // over 1 by what counts as equally near
-  double inverse = 0;
-  std::vector<int> meet;
-  for (const int cell : cells_at(end)) {
-    if (cell != home && (mesh_.fracture_cells[cell].grown || is_prescribed_[cell])) continue;
-    meet.push_back(cell);
-    inverse += 1 / mesh_.fracture_cells[cell].measure;
-  }
-  for (const int cell : meet) {
-    const double share = to_end / (inverse * mesh_.fracture_cells[cell].measure);
-    shares.emplace_back(cell, cell == home ? share + 1 - to_end : share);
-  }
+  for (const int cell : cells) shares.emplace_back(cell, mesh_.fracture_cells[cell].measure / length);
   return shares;
-}
-
-/// The cells of the flow that meet at the end of one of them: those of a junction, or two, or one.
-std::vector<int> FractureFlow::cells_at(const FracturePoint& end) const {
-  std::vector<int> cells = end.cells;
-  if (end.kind == FracturePoint::Kind::junction)
-    for (const Junction& junction : mesh_.junctions)
-      for (const int point : junction.points)
-        if (&mesh_.fracture_points[point] == &end) cells = junction.cells;
-  std::erase_if(cells, [this](int cell) { return !is_in_fracture_cell(cell); });
-  return cells;
 }
 
 void FractureFlow::prescribe(const StepTime& step) {
@@ -120,30 +109,112 @@ void FractureFlow::prescribe(const StepTime& step) {
   step_length_ = step.dt;
   is_prescribed_.assign(mesh_.fracture_cell_count(), 0);
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_prescribed_[i] = !is_in_fracture_cell(i);
+  prescribed_points_.clear();
   for (const auto& [name, given] : options_.prescribed)
     for (const int cell : cells_of(given.where)) {
+      const double pressure = value_in_step(given.pressure, fracture_cell_place(mesh_, cell), step);
+      check_bound(pressure, given.where.origin, "the pressure");
+      if (given.where.at) {
+        prescribed_points_.push_back({name, cell, *given.where.at, pressure});
+        continue;
+      }
       const FractureCell& at = mesh_.fracture_cells[cell];
       is_prescribed_[cell] = 1;
-      check_bound(value_in_step(given.pressure, fracture_cell_place(mesh_, cell), step), given.where.origin,
-                  "the pressure");
       const double storage = at.measure * initial_aperture_[cell] * compressibility_[cell];
-      prescribed_.push_back({cell, value_in_step(given.pressure, fracture_cell_place(mesh_, cell), step),
-                             storage > 0 ? storage : at.measure});
+      prescribed_.push_back({cell, pressure, storage > 0 ? storage : at.measure});
     }
   source_ = Vector::Zero(mesh_.fracture_cell_count());
   sources_.clear();
+  injected_points_.clear();
   for (const auto& [name, injection] : options_.injections) {
     FluidSource source{name, {}};
-    for (const auto& [cell, share] : shares_of(injection.where)) {
-      const double rate = value_in_step(injection.rate, fracture_cell_place(mesh_, cell), step) * share;
-      source_[cell] += rate;
-      source.rates.emplace_back(cell, rate);
+    const auto rate = [&, &injection = injection](int cell) {
+      return value_in_step(injection.rate, fracture_cell_place(mesh_, cell), step);
+    };
+    if (injection.where.at) {
+      const int cell = cells_of(injection.where).front();
+      injected_points_.push_back({name, cell, *injection.where.at, rate(cell)});
+    } else {
+      for (const auto& [cell, share] : shares_by_length(injection.where))
+        source.rates.emplace_back(cell, rate(cell) * share);
     }
     sources_.push_back(std::move(source));
   }
-  // The balance of a cell with a prescribed pressure is not solved: what is injected there has no effect.
-  for (FluidSource& source : sources_)
+}
+
+/// Finds the shares of points in this step, and what enters each cell.
+void FractureFlow::share_points() {
+  for (OpenPoint& point : prescribed_points_) share(point);
+  for (OpenPoint& point : injected_points_) {
+    share(point);
+    FluidSource& source = *std::ranges::find(sources_, point.name, &FluidSource::name);
+    source.rates.clear();
+    for (const auto& [cell, share] : point.shares) source.rates.emplace_back(cell, point.value * share);
+  }
+  source_.setZero();
+  for (FluidSource& source : sources_) {
+    for (const auto& [cell, rate] : source.rates) source_[cell] += rate;
+    // The balance of a cell with a prescribed pressure is not solved: what is injected there has no effect.
     std::erase_if(source.rates, [&](const auto& rate) { return is_prescribed_[rate.first] != 0; });
+  }
+}
+
+void FractureFlow::share(OpenPoint& point) const {
+  point.shares = shares_at(point.cell, point.at);
+  point.level = 0;
+  const Point place = point_at(point.cell, point.at);
+  for (const auto& [cell, share] : point.shares)
+    point.level += share * weight_between(mesh_.fracture_cells[cell].center, place);
+}
+
+std::vector<FluidSource> FractureFlow::fluid_sources() const {
+  std::vector<FluidSource> sources = sources_;
+  for (std::size_t k = 0; k < prescribed_points_.size(); ++k) {
+    const double rate = let_in_at_points_->now()[static_cast<Eigen::Index>(k)];
+    sources.push_back({prescribed_points_[k].name, {}});
+    for (const auto& [cell, share] : prescribed_points_[k].shares)
+      sources.back().rates.emplace_back(cell, share * rate);
+  }
+  return sources;
+}
+
+/// The rate q that a point with the prescribed pressure P lets in: into the balances of its cells with their shares, so
+/// that P is the pressure at the point.
+void FractureFlow::assemble_prescribed_points(Assembly& assembly, const StepTime& step) const {
+  if (prescribed_points_.empty()) return;
+  const Field& rate = *let_in_at_points_;
+  const int count = rate.size(), cells = mesh_.fracture_cell_count();
+  std::vector<Triplet> shares, into, by_aperture;
+  Vector of_rate = Vector::Zero(count), given = Vector::Zero(count);
+  for (int k = 0; k < count; ++k) {
+    const OpenPoint& point = prescribed_points_[k];
+    for (const auto& [cell, share] : point.shares) {
+      shares.emplace_back(k, cell, share);
+      into.emplace_back(cell, k, -step.dt * share);
+    }
+    const Rise rise = rise_at(point.cell, point.at);
+    of_rate[k] = rise.value;
+    given[k] = point.value - point.level;
+    for (const auto& [cell, by] : rise.by_aperture) by_aperture.emplace_back(k, cell, by * rate.now()[k]);
+  }
+  const auto matrix = [](const std::vector<Triplet>& entries, int rows, int columns) {
+    SparseMatrix matrix(rows, columns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  };
+  if (assembly.has_row(pressure_)) {
+    SparseMatrix of_cells = matrix(into, cells, count);
+    BalanceRows(assembly, pressure_).supply(-(of_cells * rate.now()));
+    assembly.derivative(pressure_, rate, std::move(of_cells));
+  }
+  if (!assembly.has_row(rate)) return;
+  SparseMatrix of_cells = matrix(shares, count, cells);
+  assembly.add(rate, of_cells * pressure_.now());
+  assembly.add(rate, of_rate.cwiseProduct(rate.now()));
+  assembly.add(rate, -given);
+  assembly.derivative(rate, pressure_, std::move(of_cells));
+  assembly.diagonal(rate, rate, of_rate);
+  if (!by_aperture.empty()) assembly.derivative(rate, aperture_, matrix(by_aperture, count, cells));
 }
 
 /// The flow into the fracture at a cell with a prescribed pressure: the residual of its balance, before its row is
@@ -161,29 +232,32 @@ void FractureFlow::count_let_in(const Assembly& assembly) const {
 }
 
 void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
-  for (const auto& [place_name, injection] : options_.injections) {
+  for (const FluidSource& source : sources_) {
     double rate = 0;
-    for (const FluidSource& source : sources_)
-      if (source.name == place_name)
-        for (const auto& [cell, part] : source.rates) rate += part;
-    quantities.push_back({name() + "." + place_name + ".rate", "m^2/s", rate});
-    if (injection.where.at)
-      quantities.push_back({name() + "." + place_name + ".pressure", "Pa", pressure_at(injection.where, rate)});
+    for (const auto& [cell, part] : source.rates) rate += part;
+    quantities.push_back({name() + "." + source.name + ".rate", "m^2/s", rate});
+    const auto point = std::ranges::find(injected_points_, source.name, &OpenPoint::name);
+    if (point != injected_points_.end())
+      quantities.push_back({name() + "." + source.name + ".pressure", "Pa", pressure_at(*point, rate)});
   }
   if (options_.prescribed.empty() && options_.boundary.empty()) return;
   Vector rates = Vector::Zero(static_cast<Eigen::Index>(options_.prescribed.size()));
   std::size_t k = 0;
   Eigen::Index place = 0;
   for (const auto& [place_name, given] : options_.prescribed) {
-    const std::size_t count = cells_of(given.where).size();
+    const std::size_t count = given.where.at ? 0 : cells_of(given.where).size();
     for (std::size_t i = 0; i < count && k < let_in_.size(); ++i, ++k)
       if (is_owned(mesh_, Location::fracture_cell, prescribed_[k].cell)) rates[place] += let_in_[k];
     ++place;
   }
   parallel::sum(rates);
   place = 0;
-  for (const auto& [place_name, given] : options_.prescribed)
-    quantities.push_back({name() + "." + place_name + ".rate", "m^2/s", rates[place++]});
+  Eigen::Index point = 0;
+  for (const auto& [place_name, given] : options_.prescribed) {
+    const double rate = given.where.at ? let_in_at_points_->now()[point++] : rates[place];
+    quantities.push_back({name() + "." + place_name + ".rate", "m^2/s", rate});
+    ++place;
+  }
   for (const auto& [side, pressure] : options_.boundary) {
     double outflow = 0;  // fluxes are whole on every process
     for (const Link& link : links_) {
@@ -195,26 +269,17 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
   }
 }
 
-/// The pressure at a point where fluid is injected. Between two cells the pressure has a kink there: with the shares
-/// 1 - s and s, and the conductance C between both centres, it is (1 - s) p_1 + s p_2 + s (1 - s) q/C, exact where all
-/// fluid flows along a fracture of one transmissivity. At a crossing it is the mean of the cells.
-double FractureFlow::pressure_at(const FracturePlace& where, double rate) const {
-  const std::vector<std::pair<int, double>> shares = shares_of(where);
-  double pressure = 0;
-  for (const auto& [cell, share] : shares) pressure += share * pressure_.now()[cell];
-  if (shares.size() != 2) return pressure;
-  const std::set<int> both = {shares[0].first, shares[1].first};
-  for (const Link& link : links_) {
-    if (link.second == none || both != std::set<int>{link.first, link.second}) continue;
-    const double between = conductance(link).value;
-    if (between > 0) pressure += shares[0].second * shares[1].second * rate / between;
-  }
+/// The pressure at a point where fluid is injected, which has a kink there.
+double FractureFlow::pressure_at(const OpenPoint& point, double rate) const {
+  double pressure = point.level + rise_at(point.cell, point.at).value * rate;
+  for (const auto& [cell, share] : point.shares) pressure += share * pressure_.now()[cell];
   return pressure;
 }
 
 std::vector<FluidReservoir> FractureFlow::fluid_reservoirs() const {
   std::vector<FluidReservoir> reservoirs;
-  for (const auto& [name, given] : options_.prescribed) reservoirs.push_back({name, cells_of(given.where)});
+  for (const auto& [name, given] : options_.prescribed)
+    if (!given.where.at) reservoirs.push_back({name, cells_of(given.where)});
   return reservoirs;
 }
 

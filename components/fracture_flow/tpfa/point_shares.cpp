@@ -1,0 +1,114 @@
+// What enters a fracture at a point between the centres of cells. To its cell's end on that side, and from there to the
+// centres of all cells that meet at the end, the fracture conducts as the fluxes along it have it: with the
+// conductances t_k from the centres to the end, r = 1/t_home, and the point at the part s of the way from the centre to
+// the end, a rate q at the point is a rate (1 − s) q at the centre and s q at the end, and
+//   p = (1 − s) p_home + s p_end + s (1 − s) r q,   p_end = (sum of t_k p_k + s q)/(sum of t_k).
+#include <algorithm>
+#include <cmath>
+
+#include "components/fracture_flow/tpfa/fracture_flow.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk::fracture_flow {
+namespace {
+
+constexpr double equally_near = 2e-6;  // of half a cell: so far beyond its end a point may be its own
+
+}  // namespace
+
+FractureFlow::Spot FractureFlow::spot(int cell, const Point& at) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.fracture_cell_count()), cell, mesh_.fracture_cell_count());
+  const FractureCell& home = mesh_.fracture_cells[cell];
+  const auto end = [&](int k) -> const Point& { return mesh_.fracture_points[home.points[k]].position; };
+  const double off = (at - home.center).dot((end(1) - end(0)).normalized());
+  const int nearer = home.points[off < 0 ? 0 : 1];
+  if (mesh_.fracture_points[nearer].cells.size() == 1) return {nearer, 0};
+  return {nearer, std::min(std::abs(off) / (0.5 * home.measure), 1 + equally_near)};
+}
+
+Point FractureFlow::point_at(int cell, const Point& at) const {
+  const Spot spot = this->spot(cell, at);
+  const Point& centre = mesh_.fracture_cells[cell].center;
+  return centre + spot.to_end * (mesh_.fracture_points[spot.end].position - centre);
+}
+
+/// The conductances from the centres of the cells that meet at an end of a cell to this end.
+std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home) const {
+  const FracturePoint& end = mesh_.fracture_points[point];
+  const auto half_length = [&](int cell) { return 0.5 * mesh_.fracture_cells[cell].measure; };
+  std::vector<HalfCell> halves;
+  if (end.kind == FracturePoint::Kind::junction) {
+    const auto is_here = [point](const Junction& junction) { return std::ranges::count(junction.points, point) > 0; };
+    const Junction& junction = *std::ranges::find_if(mesh_.junctions, is_here);
+    const std::vector<JunctionFluxes::Half> values =
+        options_.is_constant() ? given_halves(junction) : halves_by_opening(junction);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      HalfCell half{junction.cells[k], values[k].value, {}};
+      for (Eigen::Index i = 0; i < values[k].by_aperture.size(); ++i)
+        if (values[k].by_aperture[i] != 0) half.by_aperture.emplace_back(junction.cells[i], values[k].by_aperture[i]);
+      halves.push_back(std::move(half));
+    }
+  } else if (end.cells.size() == 2 && !options_.is_constant()) {
+    const std::array<HydraulicHalf, 2> values = halves_by_opening(Link{point, end.cells[0], end.cells[1], none, none});
+    for (int k = 0; k < 2; ++k) {
+      const int cell = end.cells[k];
+      const auto [a, by_present] = values[k].hydraulic;
+      HalfCell half{cell, a * a * a / (12 * viscosity_[cell] * half_length(cell)), {}};
+      for (int i = 0; i < 2; ++i)
+        half.by_aperture.emplace_back(end.cells[i], 3 * half.conductance / a * by_present * values[k].by_aperture[i]);
+      halves.push_back(std::move(half));
+    }
+  } else {
+    for (const int cell : end.cells) {
+      const auto [value, by_aperture] = transmissivity(cell, point);
+      HalfCell half{cell, value / half_length(cell), {}};
+      if (by_aperture != 0) half.by_aperture.emplace_back(cell, by_aperture / half_length(cell));
+      halves.push_back(std::move(half));
+    }
+  }
+  std::erase_if(halves, [&](const HalfCell& half) {
+    return half.cell != home && (!is_in_fracture_cell(half.cell) || is_prescribed_[half.cell]);
+  });
+  return halves;
+}
+
+/// At the centre of a cell, or where its pressure is prescribed, or where nothing is conducted, the cell takes all.
+bool FractureFlow::is_alone(const Spot& spot, const std::vector<HalfCell>& halves, int home) const {
+  const auto own = std::ranges::find(halves, home, &HalfCell::cell);
+  SPREKK_ASSERT(own != halves.end(), home);
+  return is_prescribed_[home] || spot.to_end == 0 || !(own->conductance > 0);
+}
+
+std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Point& at) const {
+  const Spot spot = this->spot(cell, at);
+  const std::vector<HalfCell> halves = halves_at(spot.end, cell);
+  if (is_alone(spot, halves, cell)) return {{cell, 1.0}};
+  double sum = 0;
+  for (const HalfCell& half : halves) sum += half.conductance;
+  std::vector<std::pair<int, double>> shares;
+  for (const HalfCell& half : halves) {
+    const double share = spot.to_end * half.conductance / sum;
+    shares.emplace_back(half.cell, half.cell == cell ? share + 1 - spot.to_end : share);
+  }
+  return shares;
+}
+
+FractureFluid::Rise FractureFlow::rise_at(int cell, const Point& at) const {
+  const Spot spot = this->spot(cell, at);
+  const std::vector<HalfCell> halves = halves_at(spot.end, cell);
+  if (is_alone(spot, halves, cell)) return {};
+  double sum = 0, own = 0;
+  for (const HalfCell& half : halves) {
+    sum += half.conductance;
+    if (half.cell == cell) own = half.conductance;
+  }
+  const double s = spot.to_end;
+  Rise rise{s * (1 - s) / own + s * s / sum};
+  for (const HalfCell& half : halves) {
+    const double by = -s * s / (sum * sum) - (half.cell == cell ? s * (1 - s) / (own * own) : 0);
+    for (const auto& [of, by_aperture] : half.by_aperture) rise.by_aperture.emplace_back(of, by * by_aperture);
+  }
+  return rise;
+}
+
+}  // namespace sprekk::fracture_flow
