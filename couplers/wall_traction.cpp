@@ -137,10 +137,15 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
   }
 
   /// Notes suction, a pressure below zero. It pulls the walls together whatever the reference of pressures is: the wall
-  /// traction contains the pressure itself.
+  /// traction contains the pressure itself. Viscous fluid that fills a fracture up to its tip has no lowest pressure
+  /// there (Spence and Sharp, Proc. R. Soc. A 400 (1985) 289), so that the cell at a tip has the less, the smaller it
+  /// is.
   void note_step(Notes& notes, const StepTime&) const override {
     if (!fluid_) return;
-    const Vector& pressure = fluid_->pressure().now();
+    Vector pressure = fluid_->pressure().now();
+    for (const FracturePoint& point : mesh_.fracture_points)
+      if (point.kind == FracturePoint::Kind::tip && fluid_->viscosity_between_walls(point.cells[0]) > 0)
+        pressure[point.cells[0]] = std::max(pressure[point.cells[0]], 0.0);
     Eigen::Index lowest = 0;
     const double suction = -pressure.minCoeff(&lowest);
     constexpr double rounding = 1e-6;

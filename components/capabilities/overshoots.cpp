@@ -10,6 +10,7 @@ namespace sprekk {
 namespace {
 
 constexpr double least_share_of_range = 0.01;
+constexpr double left_by_solvers = 1e-9;  // of the base of potentials
 /// Inflow other than through faces is a source if it exceeds this share of all fluxes and of the storage.
 constexpr double least_share_of_source = 1e-3;
 
@@ -60,7 +61,7 @@ double range_of(const FlowStep& step) {
 Overshoots find_overshoots(const FlowStep& step) {
   Overshoots found;
   found.range = range_of(step);
-  if (!(found.range > 0)) return found;
+  if (!(found.range > left_by_solvers * step.base)) return found;
   double cells = 0;
   for (int cell = 0; cell < step.mesh.cell_count(); ++cell) {
     if (step.mesh.cell_rank[cell] != parallel::rank()) continue;

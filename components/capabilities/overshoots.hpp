@@ -18,6 +18,7 @@ struct FlowStep {
   const Vector& fluxes;                              ///< at its end, one a face, m^2/s
   const Vector& capacity;                            ///< one a cell, m^2/Pa
   double dt;                                         ///< s
+  double base;  ///< Pa, the largest of the numbers whose differences potentials are: their round-off is relative to it
 };
 
 /// How many cells overshoot, and by how much.
@@ -32,7 +33,8 @@ struct Overshoots {
 /// around it and higher than on its sides, although fluid enters it only through faces to these cells and sides: fluid
 /// that enters and is not stored must find a way down the potential. Undershoots are defined in the same way. Amounts
 /// that other parts add to the balance are found from what the cell stores and passes on. Overshoots below 1 % of the
-/// range of potentials do not count: the errors of a coarse mesh may be that large. Counts the cells of all processes.
+/// range of potentials do not count: the errors of a coarse mesh may be that large. Nothing counts where all potentials
+/// are one but for what solvers leave. Counts the cells of all processes.
 /// Collective.
 Overshoots find_overshoots(const FlowStep& step);
 

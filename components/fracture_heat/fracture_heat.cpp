@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "components/capabilities/cold.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/invariants.hpp"
@@ -86,7 +87,8 @@ FractureHeat::FractureHeat(const ComponentContext& context, const Options& optio
       throw unknown_name(origin, "side of the boundary", side, mesh_.side_names);
   const std::vector<Place> places = fracture_cell_places(mesh_);
   const auto values = [&](const Data& data) { return Property(data, places, context.start_time).values(); };
-  temperature_.set_both(values(options_.initial_temperature));
+  initial_temperature_ = values(options_.initial_temperature);
+  temperature_.set_both(initial_temperature_);
   const Vector aperture = values(options_.aperture), conductivity = values(options_.conductivity);
   capacity_ = values(options_.heat_capacity).cwiseProduct(aperture);
   half_conductance_ = 2 * conductivity.cwiseProduct(aperture);
@@ -99,6 +101,12 @@ FractureHeat::FractureHeat(const ComponentContext& context, const Options& optio
   capacity_of_temperature_ = Operator(diagonal_matrix(capacity_));
   options_.crossings.check_names(mesh_);
   connect(conductivity.cwiseInverse(), aperture);
+}
+
+void FractureHeat::note_input(Notes& notes) const {
+  std::vector<const Data*> given;
+  for (const auto& [side, temperature] : options_.boundary) given.push_back(&temperature);
+  note_cold(notes, name(), initial_temperature_, given);
 }
 
 const Data* FractureHeat::end_condition(int point) const {

@@ -60,6 +60,7 @@ class FractureHeat : public Component, public FractureTemperature, public KeepsT
   const Mesh& mesh_;
   Options options_;
   Field& temperature_;
+  Vector initial_temperature_;
   Field& cumulative_;        ///< (stored, outflow) of each fracture cell since the start, J/m
   Vector capacity_;          ///< J/(m K)
   Vector half_conductance_;  ///< W/(m K), of half a cell, along it

@@ -97,9 +97,10 @@ void MatrixFlow::note_fluxes(Notes& notes, const StepTime& step) const {
                                 ? "walls of fractures and faces without neighbours in the direction of the flux "
                                   "are exempt from its bounds"
                                 : "where rock is anisotropic or cells are flat, such fluxes keep no bounds";
-  const Overshoots found = find_overshoots({mesh_, conditions_, pressure_.now() - gravity_potential_cell_,
-                                            pressure_.accepted() - gravity_potential_cell_, boundary_values_,
-                                            boundary_changes_, face_fluxes(), capacity_, step.dt});
+  const Overshoots found = find_overshoots(
+      {mesh_, conditions_, pressure_.now() - gravity_potential_cell_, pressure_.accepted() - gravity_potential_cell_,
+       boundary_values_, boundary_changes_, face_fluxes(), capacity_, step.dt,
+       std::max(pressure_.now().lpNorm<Eigen::Infinity>(), gravity_potential_cell_.lpNorm<Eigen::Infinity>())});
   if (found.cells == 0) return;
   notes.add(
       name() + ".pressure beyond its surroundings",

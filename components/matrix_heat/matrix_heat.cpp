@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "components/capabilities/cold.hpp"
 #include "components/capabilities/overshoots.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
@@ -216,10 +217,17 @@ void MatrixHeat::balance(std::map<std::string, Balance>& balances) const {
   }
 }
 
+void MatrixHeat::note_input(Notes& notes) const {
+  std::vector<const Data*> given;
+  for (const auto& [side, condition] : options_.boundary)
+    if (condition.temperature) given.push_back(&*condition.temperature);
+  note_cold(notes, name(), initial_temperature_, given);
+}
+
 void MatrixHeat::note_step(Notes& notes, const StepTime& step) const {
-  const Overshoots found =
-      find_overshoots({mesh_, conditions_, temperature_.now(), temperature_.accepted(), boundary_values_,
-                       boundary_changes_, face_heat_fluxes(), capacity_, step.dt});
+  const Overshoots found = find_overshoots({mesh_, conditions_, temperature_.now(), temperature_.accepted(),
+                                            boundary_values_, boundary_changes_, face_heat_fluxes(), capacity_, step.dt,
+                                            temperature_.now().lpNorm<Eigen::Infinity>()});
   if (found.cells == 0) return;
   notes.add(
       temperature_.name() + " beyond its surroundings",

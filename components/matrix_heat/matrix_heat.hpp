@@ -44,6 +44,7 @@ class MatrixHeat : public Component, public MatrixTemperature, public HeatWalls,
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void balance(std::map<std::string, Balance>& balances) const override;
+  void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "components/capabilities/cold.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_border.hpp"
 #include "couplers/heat_advection/carried_heat.hpp"
@@ -49,6 +50,8 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
     if (fracture_heat_ && fracture_)
       fractures_ = {context, fracture_heat_->temperature(), Location::fracture_cell, "fractures", c};
     find_wells(context);
+    for (const CarriedHeat* place : {&rock_, &fractures_})
+      if (place->temperature) at_start_.push_back(place->temperature->now());
   }
 
   /// Heat that is carried through the walls in a step is the same for both sides.
@@ -170,6 +173,11 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
     }
   }
 
+  void note_input(Notes& notes) const override {
+    std::vector<const Data*> given;
+    for (const auto& [place, injected] : options_.injected) given.push_back(&injected.temperature);
+    for (const Vector& at_start : at_start_) note_cold(notes, name(), at_start, given);
+  }
   void note_step(Notes& notes, const StepTime&) const override { wells_.note(name(), notes); }
 
   std::vector<double> switch_times() const override {
@@ -365,6 +373,7 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
   MatrixTemperature* rock_heat_ = nullptr;
   FractureTemperature* fracture_heat_ = nullptr;
   HeatOfWells wells_;
+  std::vector<Vector> at_start_;  ///< temperatures of the cells that fluid reaches, K
   CarriedHeat rock_, fractures_;
   std::optional<HeldFlux> held_flux_;
   std::vector<std::pair<std::string, double>> injected_;  ///< K, in this step

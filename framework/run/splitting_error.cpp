@@ -60,7 +60,12 @@ void SplittingError::before_acceptance(const Model& model, const StepTime& step)
     is_split = !check.converged;
   }
   before_.clear();
-  for (const auto& field : model.fields().all()) before_.push_back(field->accepted());
+  for (const auto& field : model.fields().all()) {
+    before_.push_back(field->accepted());
+    if (!field->is_solved()) continue;
+    double& largest = largest_[field->name()];  // also of steps that are not split
+    largest = std::max({largest, largest_of(field->accepted()), largest_of(field->now())});
+  }
   if (is_split && second_.empty()) second_ = before_;
 }
 

@@ -33,7 +33,10 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
   std::string why = outcome.reason;
   for (const std::string& note : outcome.notes) why += "; " + note;
   const std::string name = this->name() + "." + tip.name;
-  const std::string state = fmt::format("at K_eq/K_IC = {:.4g} and K_II/K_I = {:.3g} ({})", k_eq, shear, why);
+  // Before a tip turns, its K_II/K_I is that of the crack it has, and says nothing on the growth.
+  const std::string state = has_grown
+                                ? fmt::format("at K_eq/K_IC = {:.4g} and K_II/K_I = {:.3g} ({})", k_eq, shear, why)
+                                : fmt::format("at K_eq/K_IC = {:.4g} ({})", k_eq, why);
   if (is_blocked)
     notes_.push_back({name + " is stopped above its toughness",
                       fmt::format("{} stops {} it grows no more", name, state), std::abs(excess)});

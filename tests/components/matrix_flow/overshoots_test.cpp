@@ -62,7 +62,8 @@ Overshoots after_a_step(const Scene& scene, Discretization discretize, std::arra
       solver.solve(Vector(capacity.cwiseProduct(before) + source - scene.dt * (divergence * of_sides)));
   const Vector fluxes = operators.flux_cell * after + of_sides;
   if (bounds) *bounds = {after.minCoeff(), after.maxCoeff()};
-  return find_overshoots({mesh, conditions, after, before, values, changes, fluxes, capacity, scene.dt});
+  return find_overshoots(
+      {mesh, conditions, after, before, values, changes, fluxes, capacity, scene.dt, after.lpNorm<Eigen::Infinity>()});
 }
 
 const auto zero = [](const Point&) { return 0.0; };
