@@ -158,7 +158,8 @@ output:
 }
 
 /// A well where a fracture crosses another one that conducts a millionth of it: what the other one takes is in
-/// proportion. Reference: steady flow to the four ends, Q = sum of T_k p/(mu L), whatever the cells of the crossing.
+/// proportion. Reference: steady flow to the four ends. An arm leads from its end to the middle of the crossing, the
+/// last half aperture through what fills it, whose permeability is the harmonic mean of both.
 TEST(WellsAtPoints, FeedArmsAsTheyConduct) {
   for (const double small : {1e-9, 1e-12, 1e-15})
     for (const double off : {0.0, 0.03, -0.03}) {
@@ -180,12 +181,15 @@ time: {{end: 1 s, step: 1 s}}
 )",
                                                      small, off));
       run.run();
-      const double of_a = 1e-6, of_b = small / 1e-3;  // per metre and Pa
-      // From the well by the short way to the crossing, from where the other arm of a and both of b lead out.
-      const double distance = std::abs(off), beyond = of_a + 2 * of_b;
-      const double to_crossing = distance > 0 ? of_a / distance : 0;
-      const double that_way = distance > 0 ? 1 / (1 / to_crossing + 1 / beyond) : beyond;
-      const double exact = 1e-6 / (of_a / (1 - distance) + that_way);
+      const double aperture = 1e-3, half = aperture / 2, of_a = 1e-9 / aperture, of_b = small / aperture;
+      const double of_fill = 2 / (1 / of_a + 1 / of_b);
+      const auto arm = [&](double permeability) {
+        return 1e-3 / aperture * ((1 - half) / permeability + half / of_fill);
+      };
+      const double outwards = 1e-3 / aperture * (1 - std::abs(off)) / of_a;
+      const double beyond = 1 / (1 / arm(of_a) + 2 / arm(of_b));
+      const double exact = off == 0 ? 1e-6 / (2 / arm(of_a) + 2 / arm(of_b))
+                                    : 1e-6 / (1 / outwards + 1 / (arm(of_a) - outwards + beyond));
       EXPECT_NEAR(run.quantity("wells.w.pressure") / exact, 1, 1e-9) << small << " " << off;
     }
 }

@@ -53,8 +53,7 @@ Conductance FractureFlow::conductance_by_opening(const Link& link) const {
 
 std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
   std::vector<JunctionFluxes> fluxes;
-  const bool passes_walls = options_.crossings.find_through() && options_.has_given_walls();
-  const NormalPermeability walls = passes_walls ? normal_permeability() : NormalPermeability{};
+  const Vector walls = walls_of_crossings();
   for (std::size_t j = 0; j < mesh_.junctions.size(); ++j) {
     const Junction& junction = mesh_.junctions[j];
     std::vector<JunctionFluxes::Half> halves =
@@ -63,10 +62,15 @@ std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
       if (!is_in_fracture_cell(junction.cells[k]))
         halves[k] = {0, Vector::Zero(static_cast<Eigen::Index>(halves.size()))};
     if (has_inertia()) slow_down(junction, halves);
-    pass_crossing(j, walls.value, halves);
+    pass_crossing(j, walls, halves);
     fluxes.emplace_back(junction, std::move(halves));
   }
   return fluxes;
+}
+
+Vector FractureFlow::walls_of_crossings() const {
+  const bool passes_walls = options_.crossings.find_through() && options_.has_given_walls();
+  return passes_walls ? normal_permeability().value : Vector();
 }
 
 /// Apertures are those at the start: what fills a crossing does not open. Arms without one, which have grown, and dry

@@ -147,6 +147,8 @@ class FractureFlow : public Component,
   void note_ends(Notes& notes) const;
   /// Notes a fracture that passes the tight walls of another by a crossing whose fill is not said.
   void note_crossings(Notes& notes) const;
+  /// The normal permeability of each wall, where what fills crossings depends on it; else empty.
+  Vector walls_of_crossings() const;
   /// Leads the halves through what fills the crossing.
   void pass_crossing(std::size_t junction, const Vector& walls, std::vector<JunctionFluxes::Half>& halves) const;
   /// K (m^3) of the half of a cell at a point where the transmissivity is given.
@@ -193,9 +195,12 @@ class FractureFlow : public Component,
     int cell;
     double conductance;
     std::vector<std::pair<int, double>> by_aperture;
+    double own = 0;  ///< without what fills a crossing
+    std::vector<std::pair<int, double>> own_by_aperture = {};
   };
   std::vector<HalfCell> halves_at(int point, int home) const;
   bool is_alone(const Spot& spot, const std::vector<HalfCell>& halves, int home) const;
+  static double part_before(const Spot& spot, const HalfCell& home);
   /// The cells of a whole fracture, and their shares, which add up to 1.
   std::vector<std::pair<int, double>> shares_by_length(const FracturePlace& where) const;
   /// A point at which fluid enters, or where a pressure is prescribed.

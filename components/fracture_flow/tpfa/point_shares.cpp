@@ -39,15 +39,20 @@ std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home)
   std::vector<HalfCell> halves;
   if (end.kind == FracturePoint::Kind::junction) {
     const auto is_here = [point](const Junction& junction) { return std::ranges::count(junction.points, point) > 0; };
-    const Junction& junction = *std::ranges::find_if(mesh_.junctions, is_here);
-    const std::vector<JunctionFluxes::Half> values =
-        options_.is_constant() ? given_halves(junction) : halves_by_opening(junction);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      HalfCell half{junction.cells[k], values[k].value, {}};
-      for (Eigen::Index i = 0; i < values[k].by_aperture.size(); ++i)
-        if (values[k].by_aperture[i] != 0) half.by_aperture.emplace_back(junction.cells[i], values[k].by_aperture[i]);
-      halves.push_back(std::move(half));
-    }
+    const auto junction = std::ranges::find_if(mesh_.junctions, is_here);
+    const std::vector<JunctionFluxes::Half> own =
+        options_.is_constant() ? given_halves(*junction) : halves_by_opening(*junction);
+    std::vector<JunctionFluxes::Half> values = own;
+    pass_crossing(junction - mesh_.junctions.begin(), walls_of_crossings(), values);
+    const auto by_cell = [&](const Vector& by_aperture) {
+      std::vector<std::pair<int, double>> derivatives;
+      for (Eigen::Index i = 0; i < by_aperture.size(); ++i)
+        if (by_aperture[i] != 0) derivatives.emplace_back(junction->cells[i], by_aperture[i]);
+      return derivatives;
+    };
+    for (std::size_t k = 0; k < values.size(); ++k)
+      halves.push_back({junction->cells[k], values[k].value, by_cell(values[k].by_aperture), own[k].value,
+                        by_cell(own[k].by_aperture)});
   } else if (end.cells.size() == 2 && !options_.is_constant()) {
     const std::array<HydraulicHalf, 2> values = halves_by_opening(Link{point, end.cells[0], end.cells[1], none, none});
     for (int k = 0; k < 2; ++k) {
@@ -66,6 +71,11 @@ std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home)
       halves.push_back(std::move(half));
     }
   }
+  for (HalfCell& half : halves)
+    if (end.kind != FracturePoint::Kind::junction) {
+      half.own = half.conductance;
+      half.own_by_aperture = half.by_aperture;
+    }
   std::erase_if(halves, [&](const HalfCell& half) {
     return half.cell != home && (!is_in_fracture_cell(half.cell) || is_prescribed_[half.cell]);
   });
@@ -79,16 +89,23 @@ bool FractureFlow::is_alone(const Spot& spot, const std::vector<HalfCell>& halve
   return is_prescribed_[home] || spot.to_end == 0 || !(own->conductance > 0);
 }
 
+/// The part s of the resistance from the centre to the end, which counts what fills a crossing, that lies before the
+/// point. The crossing is at the end itself.
+double FractureFlow::part_before(const Spot& spot, const HalfCell& home) {
+  return spot.to_end >= 1 - equally_near ? spot.to_end : spot.to_end * home.conductance / home.own;
+}
+
 std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Point& at) const {
   const Spot spot = this->spot(cell, at);
   const std::vector<HalfCell> halves = halves_at(spot.end, cell);
   if (is_alone(spot, halves, cell)) return {{cell, 1.0}};
+  const double before = part_before(spot, *std::ranges::find(halves, cell, &HalfCell::cell));
   double sum = 0;
   for (const HalfCell& half : halves) sum += half.conductance;
   std::vector<std::pair<int, double>> shares;
   for (const HalfCell& half : halves) {
-    const double share = spot.to_end * half.conductance / sum;
-    shares.emplace_back(half.cell, half.cell == cell ? share + 1 - spot.to_end : share);
+    const double share = before * half.conductance / sum;
+    shares.emplace_back(half.cell, half.cell == cell ? share + 1 - before : share);
   }
   return shares;
 }
@@ -97,17 +114,20 @@ FractureFluid::Rise FractureFlow::rise_at(int cell, const Point& at) const {
   const Spot spot = this->spot(cell, at);
   const std::vector<HalfCell> halves = halves_at(spot.end, cell);
   if (is_alone(spot, halves, cell)) return {};
-  double sum = 0, own = 0;
-  for (const HalfCell& half : halves) {
-    sum += half.conductance;
-    if (half.cell == cell) own = half.conductance;
-  }
-  const double s = spot.to_end;
-  Rise rise{s * (1 - s) / own + s * s / sum};
-  for (const HalfCell& half : halves) {
-    const double by = -s * s / (sum * sum) - (half.cell == cell ? s * (1 - s) / (own * own) : 0);
-    for (const auto& [of, by_aperture] : half.by_aperture) rise.by_aperture.emplace_back(of, by * by_aperture);
-  }
+  const HalfCell& home = *std::ranges::find(halves, cell, &HalfCell::cell);
+  double sum = 0;
+  for (const HalfCell& half : halves) sum += half.conductance;
+  const double s = part_before(spot, home), t = home.conductance;
+  Rise rise{s * (1 - s) / t + s * s / sum};
+  const auto add = [&rise](double by, const std::vector<std::pair<int, double>>& conductance_by_aperture) {
+    for (const auto& [of, by_aperture] : conductance_by_aperture) rise.by_aperture.emplace_back(of, by * by_aperture);
+  };
+  for (const HalfCell& half : halves) add(-s * s / (sum * sum), half.by_aperture);
+  add(-s * (1 - s) / (t * t), home.by_aperture);
+  if (s == spot.to_end) return rise;
+  const double by_s = (1 - 2 * s) / t + 2 * s / sum;
+  add(by_s * s / t, home.by_aperture);
+  add(-by_s * s / home.own, home.own_by_aperture);
   return rise;
 }
 
