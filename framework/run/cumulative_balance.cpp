@@ -14,7 +14,7 @@ const std::string key = "cumulative_balance.throughput.";
 
 }  // namespace
 
-void CumulativeBalance::note_step(const std::map<std::string, Balance>& balances, Notes& notes) {
+void CumulativeBalance::note_step(const std::map<std::string, Balance>& balances, double tolerance, Notes& notes) {
   for (const auto& [name, balance] : balances) {
     double& throughput = throughput_[name];
     // At least the amounts themselves: a part may give no throughput, or sums in which terms of different places
@@ -22,7 +22,7 @@ void CumulativeBalance::note_step(const std::map<std::string, Balance>& balances
     throughput = std::max({throughput, balance.throughput, std::abs(balance.stored), std::abs(balance.injected),
                            std::abs(balance.outflow)});
     const double error = std::abs(balance.stored + balance.outflow - balance.injected);
-    if (!balance.is_closed || !(error > most * throughput)) continue;
+    if (tolerance <= most || !balance.is_closed || !(error > most * throughput)) continue;
     notes.add(name + "_balance_error",
               fmt::format("the balance of {} is off by {:.2g} {}, {:.2g} of all that was moved (what is stored, has "
                           "entered and has left does not add up) lower newton.residual, or take smaller steps",

@@ -11,8 +11,10 @@ namespace sprekk {
 /// Compares the error of each balance with the largest throughput of that balance so far.
 class CumulativeBalance {
  public:
-  /// `balances`: at the end of the step that is about to be accepted.
-  void note_step(const std::map<std::string, Balance>& balances, Notes& notes);
+  /// `balances`: at the end of the step that is about to be accepted. `tolerance`: the part of what is moved to which
+  /// the schedule keeps them in each step; where it is small, no more than round-off can be missing, and that is all
+  /// there is where nothing moves.
+  void note_step(const std::map<std::string, Balance>& balances, double tolerance, Notes& notes);
 
   /// State for checkpoints.
   void save(std::map<std::string, Vector>& state) const;

@@ -182,7 +182,7 @@ void Simulation::accept(const StepTime& step, const StepStatus& status) {
   state_.notes.at_time(step.end);
   for (const Part* part : model.parts()) part->note_step(state_.notes, step);
   model.schedule().note_step(state_.notes, step);
-  state_.balance.note_step(model.balances(), state_.notes);
+  state_.balance.note_step(model.balances(), model.schedule().largest_imbalance(), state_.notes);
   early_end_.check(model, step, quantities);
   const bool writes_frame = writes_frames_ && (early_end_.is_reached() || output_times_.contains(step.end));
   const std::vector<OutputField> fields = writes_frame ? model.output() : std::vector<OutputField>();

@@ -103,6 +103,7 @@ TEST(WellsAtPoints, FeedAFractureFromTheirPoint) {
                         at(well + 1, 0));
         double rate = 0;
         for (const std::string& with : {by_well, by_injection, by_pressure}) {
+          if (with != by_well && (&at != &same || is_reversed)) continue;
           SceneRun run = SceneRun::from_text(leaking_fracture(at, points, well, with, probes));
           run.run();
           EXPECT_LT(balance_error(run), 1e-9);

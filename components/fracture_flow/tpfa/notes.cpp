@@ -72,8 +72,10 @@ void FractureFlow::note_ends(Notes& notes) const {
     if (point.kind != FracturePoint::Kind::on_boundary || !rock_fluid_->is_open(point.side)) continue;
     const int cell = point.cells[0];
     const std::string& side = mesh_.side_names[point.side];
+    const bool holds_pressure =
+        is_prescribed_[cell] || std::ranges::count(prescribed_points_, cell, &OpenPoint::cell) > 0;
     const auto is_wet = [&](int wall_face) { return rock_fluid_->is_in_cell(mesh_.face_cells[wall_face][0]); };
-    if (options_.ends.count(side) > 0 || is_prescribed_[cell] || transmissivity(cell).value == 0 ||
+    if (options_.ends.count(side) > 0 || holds_pressure || transmissivity(cell).value == 0 ||
         std::ranges::none_of(mesh_.fracture_cells[cell].faces, is_wet))
       continue;
     notes.add(
