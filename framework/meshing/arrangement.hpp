@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "framework/mesh/planar.hpp"
+#include "framework/meshing/geometry.hpp"
 
 namespace sprekk {
 
@@ -16,5 +17,8 @@ struct Arrangement {
 /// Cuts the segments, which may touch, cross and overlap. Points nearer to one another than `tolerance` (m) become one
 /// point: an end point of the earliest segment, if there is one, or else a crossing.
 Arrangement arrange(const std::vector<Segment>& segments, double tolerance);
+
+/// The sides of the box, counter-clockwise from the lower left corner; then the fractures, then the edges of regions.
+std::vector<Segment> all_segments(const Geometry& geometry);
 
 }  // namespace sprekk

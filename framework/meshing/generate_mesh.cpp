@@ -46,7 +46,7 @@ Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options) {
 MeshNames mesh_names(const Geometry& geometry) {
   MeshNames names;
   if (geometry.is_imported()) {
-    const RawMesh raw = read_msh(geometry.file, geometry.file_origin);
+    const RawMesh raw = read_msh(geometry.file, geometry.file_origin, &names.notes);
     names.regions = raw.region_names;
     names.sides = raw.side_names;
     for (const auto& fracture : raw.fractures) names.fractures.push_back(fracture.name);

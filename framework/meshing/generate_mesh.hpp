@@ -18,6 +18,7 @@ Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options);
 /// The names of regions, sides and fractures of the mesh of a geometry, in their order.
 struct MeshNames {
   std::vector<std::string> regions, sides, fractures;
+  std::vector<std::string> notes;  ///< what the user of a mesh file may not expect
 };
 MeshNames mesh_names(const Geometry& geometry);
 

@@ -45,6 +45,9 @@ struct Geometry {
   Origin file_origin;
   std::vector<FractureGeometry> fractures;
   std::vector<RegionGeometry> regions;
+  /// Lines and points of a box that are nearer to one another are joined, m; default snap_length().
+  std::optional<double> snap = std::nullopt;
+  Origin snap_origin = {};
 
   bool is_imported() const { return !file.empty(); }
 };
@@ -76,6 +79,16 @@ struct MeshOptions {
 
 /// The edge length away from fractures, with the default resolved.
 double far_size(const Geometry& geometry, const MeshOptions& options);
+
+/// The edge length that the options ask for at a fracture, m.
+double size_at(const FractureGeometry& fracture, const Geometry& geometry, const MeshOptions& options);
+
+/// The shortest edge length that the options ask for, m, but for gaps.
+double shortest_size(const Geometry& geometry, const MeshOptions& options);
+
+/// Lines and points that are nearer to one another are joined, m: as the geometry says, by default a hundredth of the
+/// shortest size.
+double snap_length(const Geometry& geometry, const MeshOptions& options);
 
 /// Points nearer than this are one point.
 double point_tolerance(const Box& box);

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "framework/mesh/mesh.hpp"
+#include "framework/mesh/search/segment_tree.hpp"
 
 namespace sprekk {
 namespace {
@@ -66,22 +69,24 @@ class Search {
         keep_(keep) {}
 
   void run() {
-    struct Pair {
-      double gap;
-      int one, other;
-    };
-    std::vector<Pair> pairs;
-    const int count = static_cast<int>(lines_.size());
-    for (int i = 0; i < count; ++i) {
-      for (int j = 0; j < i; ++j) {
-        if (lines_[i].fracture == none && lines_[j].fracture == none) continue;
-        const double gap = distance(lines_[i].segment, lines_[j].segment);
-        if (gap < touch_) touching_.insert(touching_.end(), {{&lines_[i], &lines_[j]}, {&lines_[j], &lines_[i]}});
-        if (gap >= touch_ && gap < limits_.widest) pairs.push_back({gap, i, j});
+    // The narrowest gaps come first: after them most other gaps need no smaller edges.
+    std::vector<std::tuple<double, int, int>> pairs;
+    std::vector<Segment> segments;
+    for (const Line& line : lines_) segments.push_back(line.segment);
+    const SegmentTree tree(segments);
+    for (int i = 0; i < static_cast<int>(lines_.size()); ++i) {
+      const double reach = widest_at(segments[i]);
+      for (const int j : tree.near(segments[i], std::max(touch_, reach))) {
+        if (i == j || (lines_[i].fracture == none && lines_[j].fracture == none)) continue;
+        const double gap = distance(segments[i], segments[j]);
+        if (gap < touch_ && j < i) note_touch(lines_[i], lines_[j]);
+        if (gap >= touch_ && gap < reach && !are_neighbours(lines_[i], lines_[j], gap))
+          pairs.emplace_back(gap, std::max(i, j), std::min(i, j));
       }
     }
-    // The narrowest gaps come first: after them most other gaps need no smaller edges.
-    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.gap < b.gap; });
+    std::ranges::sort(pairs);
+    const auto repeated = std::ranges::unique(pairs);
+    pairs.erase(repeated.begin(), repeated.end());
     for (const auto& [gap, one, other] : pairs) {
       find_gaps_along(lines_[one], lines_[other]);
       find_gaps_along(lines_[other], lines_[one]);
@@ -89,6 +94,31 @@ class Search {
   }
 
  private:
+  /// The width of gaps beside a line from which on none is narrow: wanted widths vary by the slope at most.
+  double widest_at(const Segment& line) const {
+    const double most = wanted_(0.5 * (line.from + line.to)) + limits_.slope * line.length();
+    return std::min(limits_.widest, most);
+  }
+
+  /// Whether two lines of one fracture form no gap, since the path along the fracture is no detour. So most parts of
+  /// finely drawn lines are left out early.
+  static bool are_neighbours(const Line& line, const Line& other, double gap) {
+    if (line.fracture == none || line.fracture != other.fracture) return false;
+    const double longer = std::max(line.stretch.to - line.stretch.from, other.stretch.to - other.stretch.from);
+    return path_between(line.stretch, other.stretch) + longer < least_detour * gap;
+  }
+
+  /// What a line belongs to: its fracture, or itself.
+  int whole_of(const Line& line) const {
+    return line.fracture != none ? line.fracture : none - 1 - static_cast<int>(&line - lines_.data());
+  }
+
+  void note_touch(const Line& line, const Line& other) {
+    if (line.fracture != none && line.fracture == other.fracture) return;
+    touching_[{whole_of(line), whole_of(other)}].push_back({&line, &other});
+    touching_[{whole_of(other), whole_of(line)}].push_back({&other, &line});
+  }
+
   void find_gaps_along(const Line& line, const Line& other) {
     const std::vector<Joint> joints = joints_between(line, other);
     divide(line, {0, 1}, other, joints);
@@ -99,11 +129,10 @@ class Search {
     if (line.fracture == other.fracture) return {{other.stretch, 0}};
     const Line &of_fracture = line.fracture != none ? line : other, &fixed = line.fracture != none ? other : line;
     std::vector<Joint> joints;
-    for (const auto& [next, there] : touching_) {
-      const bool leads = fixed.fracture == none ? there == &fixed : there->fracture == fixed.fracture;
-      if (next->fracture != of_fracture.fracture || !leads) continue;
+    const auto found = touching_.find({whole_of(of_fracture), whole_of(fixed)});
+    if (found == touching_.end()) return joints;
+    for (const auto& [next, there] : found->second)
       joints.push_back({next->stretch, fixed.fracture == none ? 0 : path_between(there->stretch, fixed.stretch)});
-    }
     return joints;
   }
 
@@ -157,7 +186,8 @@ class Search {
   }
 
   const std::vector<Line> lines_;
-  std::vector<std::pair<const Line*, const Line*>> touching_;  ///< each pair both ways
+  /// Lines of a whole that touch lines of another one: each pair both ways.
+  std::map<std::pair<int, int>, std::vector<std::pair<const Line*, const Line*>>> touching_;
   const double touch_;
   const GapLimits limits_;
   const std::function<double(const Point&)>& wanted_;

@@ -14,6 +14,9 @@
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/meshing/conforming/curve_group.hpp"
+#include "framework/meshing/conforming/glue_cuts.hpp"
+#include "framework/meshing/conforming/require_conforming.hpp"
 #include "framework/meshing/geometry.hpp"
 #include "framework/meshing/msh_file.hpp"
 
@@ -23,11 +26,6 @@ namespace {
 /// m. Meshes that are farther from the origin, or smaller, are taken for an error of the user; squares of their lengths
 /// might overflow or vanish.
 constexpr double farthest = 1e12, smallest_extent = 1e-12;
-
-struct CurveGroup {
-  std::string name;
-  std::vector<std::array<int, 2>> lines;
-};
 
 /// Orders lines into one path.
 class Path {
@@ -88,6 +86,8 @@ class MshReader {
     read_curves();
     return std::move(mesh_);
   }
+
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   [[noreturn]] void fail(std::size_t place, const std::string& problem) const {
@@ -215,9 +215,9 @@ class MshReader {
     }
   }
 
-  CellEdges cell_edges() const {
+  void refuse_overlapping_cells() const {
     try {
-      return {mesh_.nodes, mesh_.cells};
+      const CellEdges edges(mesh_.nodes, mesh_.cells);
     } catch (const InputError&) {
       refuse_doubled_cells();
       throw;
@@ -225,9 +225,12 @@ class MshReader {
   }
 
   void read_curves() {
-    const CellEdges edges = cell_edges();
+    refuse_overlapping_cells();
+    std::vector<CurveGroup> groups = curve_groups();
+    glue_cuts(mesh_, groups);
+    const CellEdges edges(mesh_.nodes, mesh_.cells);
     std::vector<bool> has_side(edges.size(), false);
-    for (const CurveGroup& group : curve_groups()) {
+    for (const CurveGroup& group : groups) {
       std::size_t outer = 0;
       for (const auto& [a, b] : group.lines) {
         const int edge = edges.find(a, b);
@@ -249,6 +252,7 @@ class MshReader {
                          "' lies partly inside and partly on the boundary (it is neither a side nor a fracture)");
       }
     }
+    notes_ = require_conforming(mesh_, edges, has_side);
     add_unnamed_sides(edges, has_side);
   }
 
@@ -273,6 +277,7 @@ class MshReader {
 
   const MshFile file_;
   RawMesh mesh_;
+  std::vector<std::string> notes_;
 };
 
 /// Throws InputError if the file cannot be read.
@@ -289,10 +294,13 @@ std::string bytes_of(const std::string& file) {
 
 }  // namespace
 
-RawMesh read_msh(const std::string& file, const Origin& origin) {
+RawMesh read_msh(const std::string& file, const Origin& origin, std::vector<std::string>* notes) {
   try {
     const std::string bytes = bytes_of(file);
-    return MshReader(bytes).read();
+    MshReader reader(bytes);
+    RawMesh mesh = reader.read();
+    if (notes) *notes = reader.notes();
+    return mesh;
   } catch (const InputError& error) {
     throw InputError(origin, "cannot use the mesh file '" + file + "'", error.what());
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/raw_mesh.hpp"
@@ -16,7 +17,8 @@ namespace sprekk {
 /// read or are malformed (`parse_msh`), other elements than three-node triangles and four-node quadrilaterals, nodes
 /// off the plane or farther than 1e12 m, cells without an area, cells in two groups, two groups with one name, and
 /// curve groups that branch, close, fall apart, leave the cells' edges, or lie partly inside and partly on the
-/// boundary.
-RawMesh read_msh(const std::string& file, const Origin& origin = {});
+/// boundary, and cells that do not fit together (`require_conforming`). A group along which gmsh has cut the mesh open
+/// is a fracture (`glue_cuts`). `notes` receives what the user of the file may not expect.
+RawMesh read_msh(const std::string& file, const Origin& origin = {}, std::vector<std::string>* notes = nullptr);
 
 }  // namespace sprekk

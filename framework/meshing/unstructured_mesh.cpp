@@ -19,26 +19,6 @@ namespace {
 
 constexpr int box_segments = 4;
 
-/// The box's outline first, counter-clockwise from the lower left corner; then the fractures, then the polygons.
-std::vector<Segment> all_segments(const Geometry& geometry) {
-  const auto [low, high] = std::pair(geometry.box.low, geometry.box.high);
-  const Point corners[] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
-  std::vector<Segment> segments;
-  for (int i = 0; i < box_segments; ++i) segments.push_back({corners[i], corners[(i + 1) % 4]});
-  for (const FractureGeometry& fracture : geometry.fractures) {
-    for (std::size_t i = 0; i + 1 < fracture.points.size(); ++i) {
-      segments.push_back({fracture.points[i], fracture.points[i + 1]});
-    }
-  }
-  for (const RegionGeometry& region : geometry.regions) {
-    const auto& polygon = region.polygon;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      segments.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
-    }
-  }
-  return segments;
-}
-
 /// gmsh meshes a box near the origin of size between 1 and 2: with its absolute tolerances gmsh fails, and ends the
 /// process, for small boxes far from the origin. The scale is a power of two, so that it costs no digits.
 struct Frame {

@@ -1,17 +1,25 @@
 #include "framework/meshing/validate_geometry.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/mesh/search/segment_tree.hpp"
 #include "framework/meshing/size_field.hpp"
 
 namespace sprekk {
 namespace {
 
 constexpr double most_cells = 20e6;
+
+using Problems = std::vector<std::string>;
 
 std::string number(double value) {
   std::ostringstream out;
@@ -64,25 +72,33 @@ bool fold_back(const Segment& first, const Segment& second, double tolerance) {
   return distance(second.to, first) < tolerance || distance(first.from, second) < tolerance;
 }
 
-/// Where a polyline meets itself, as text, or "".
-std::string self_contact(const std::vector<Segment>& segments, bool closed, double tolerance) {
+/// Two segments of a path that meet where they should not.
+struct SelfContact {
+  std::size_t one, other;  ///< counted from 1
+  Point at;
+  bool is_crossing;
+};
+
+std::optional<SelfContact> self_contact(const std::vector<Segment>& segments, bool closed, double tolerance) {
   const std::size_t n = segments.size();
+  const SegmentTree tree(segments);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
+    for (const std::size_t j : tree.near(segments[i], tolerance)) {
+      if (j <= i) continue;
       const bool wraps = closed && i == 0 && j == n - 1;
       const bool touches = j == i + 1 ? fold_back(segments[i], segments[j], tolerance)
                            : wraps    ? fold_back(segments[j], segments[i], tolerance)
                                       : distance(segments[i], segments[j]) < tolerance;
-      if (touches) {
-        return "its segments " + std::to_string(i + 1) + " and " + std::to_string(j + 1) + " meet near " +
-               to_text(segments[j].from);
-      }
+      if (!touches) continue;
+      Point at = segments[j].from;
+      const bool is_crossing = cross_inside(segments[i], segments[j], at);
+      return SelfContact{i + 1, j + 1, at, is_crossing};
     }
   }
-  return "";
+  return std::nullopt;
 }
 
-void validate_fracture(const Box& box, const FractureGeometry& fracture) {
+void validate_fracture(const Box& box, const FractureGeometry& fracture, double snap) {
   const double tolerance = point_tolerance(box);
   const std::string what = "fracture '" + fracture.name + "'";
   const auto& points = fracture.points;
@@ -104,12 +120,14 @@ void validate_fracture(const Box& box, const FractureGeometry& fracture) {
                        "move it into the " + medium_name());
     }
   }
-  const std::string contact = self_contact(segments, false, tolerance);
-  if (!contact.empty()) {
-    throw InputError(fracture.origin, what + " meets itself", contact, "leave a gap or make it two fractures");
+  if (const auto contact = self_contact(segments, false, tolerance)) {
+    throw InputError(
+        fracture.origin, what + " meets itself",
+        fmt::format("its segments {} and {} meet near {}", contact->one, contact->other, to_text(contact->at)),
+        "leave a gap or make it two fractures");
   }
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    if (depth(box, points[i]) < tolerance) {
+    if (depth(box, points[i]) < std::max(tolerance, snap)) {
       throw InputError(fracture.origin, what + " touches the boundary between its ends", "at " + to_text(points[i]),
                        "end it there");
     }
@@ -127,24 +145,31 @@ std::vector<Point> common_points(const Segment& one, const Segment& other, doubl
   return common;
 }
 
-void validate_pair(const Box& box, const FractureGeometry& a, const FractureGeometry& b) {
+/// Throws InputError if two fractures overlap, or meet where they may not. `segments`: pairs of one of each that lie
+/// near one another.
+void validate_pair(const Box& box, const FractureGeometry& a, const FractureGeometry& b,
+                   const std::vector<std::pair<Segment, Segment>>& segments, double snap) {
   const double tolerance = point_tolerance(box);
   const auto refuse = [&](const std::string& how, const Point& where, const std::string& why, const std::string& hint) {
     throw InputError(b.origin, "fracture '" + b.name + "' " + how + " fracture '" + a.name + "' at " + to_text(where),
                      why + "; '" + a.name + "' is at " + a.origin.text(), hint);
   };
-  for (const Segment& one : segments_of(a.points)) {
-    for (const Segment& other : segments_of(b.points)) {
-      const std::vector<Point> common = common_points(one, other, tolerance);
-      for (const Point& where : common) {
-        if ((where - common.front()).norm() > tolerance)
-          refuse("overlaps", where, "fractures may cross and touch, but not share a line", "end one where they meet");
-        if (depth(box, where) < tolerance)
-          refuse("meets", where, "that is on the outer boundary, where fractures may not meet",
-                 "let them meet inside of the box or leave a gap");
-      }
+  for (const auto& [one, other] : segments) {
+    const std::vector<Point> common = common_points(one, other, tolerance);
+    for (const Point& where : common) {
+      if ((where - common.front()).norm() > tolerance)
+        refuse("overlaps", where, "fractures may cross and touch, but not share a line", "end one where they meet");
+      if (depth(box, where) < std::max(tolerance, snap))
+        refuse("meets", where, "that is on the outer boundary, where fractures may not meet",
+               "let them meet inside of the box or leave a gap");
     }
   }
+}
+
+bool are_on_a_line(const std::vector<Point>& points, double tolerance) {
+  const Point& first = points.front();
+  const Point farthest = *std::ranges::max_element(points, {}, [&](const Point& x) { return (x - first).norm(); });
+  return std::ranges::all_of(points, [&](const Point& x) { return distance(x, {first, farthest}) < tolerance; });
 }
 
 void validate_region(const Box& box, const RegionGeometry& region) {
@@ -160,19 +185,21 @@ void validate_region(const Box& box, const RegionGeometry& region) {
   }
   validate_points(box, region.polygon, what, region.origin);
   const auto segments = segments_of(region.polygon, true);
-  double longest = 0;
   for (const Segment& segment : segments) {
-    longest = std::max(longest, segment.length());
     if (segment.length() < tolerance) {
       throw InputError(region.origin, what + " has the same point twice in a row", "at " + to_text(segment.from),
                        "the polygon closes itself; leave one of the points out");
     }
   }
-  if (std::abs(signed_area(region.polygon)) < tolerance * longest) {
+  if (are_on_a_line(region.polygon, tolerance)) {
     throw InputError(region.origin, what + " has no area", "its points lie on a line");
   }
-  const std::string contact = self_contact(segments, true, tolerance);
-  if (!contact.empty()) throw InputError(region.origin, what + " meets itself", contact, "make it a simple polygon");
+  if (const auto contact = self_contact(segments, true, tolerance)) {
+    throw InputError(region.origin, what + (contact->is_crossing ? " crosses itself" : " meets itself"),
+                     fmt::format("its edges {} and {} {} at {}", contact->one, contact->other,
+                                 contact->is_crossing ? "cross" : "meet", to_text(contact->at)),
+                     "give its corners in the order in which they go around it");
+  }
 }
 
 void validate_size(const std::string& name, std::optional<double> size, const Origin& origin) {
@@ -182,15 +209,48 @@ void validate_size(const std::string& name, std::optional<double> size, const Or
 }
 
 template <class Item>
-void validate_names(const std::vector<Item>& items, const std::string& kind) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (items[i].name == items[j].name) {
-        throw InputError(items[i].origin, "two " + kind + "s are called '" + items[i].name + "'",
-                         "the other one is at " + items[j].origin.text(), "give one of them another name");
-      }
-    }
+void validate_names(const std::vector<Item>& items, const std::string& kind, Problems& problems) {
+  std::map<std::string, const Item*> known;
+  for (const Item& item : items) {
+    const auto [first, is_new] = known.emplace(item.name, &item);
+    if (is_new) continue;
+    problems.push_back(InputError(item.origin, "two " + kind + "s are called '" + item.name + "'",
+                                  "the other one is at " + first->second->origin.text(),
+                                  "give one of them another name")
+                           .what());
   }
+}
+
+/// Adds what `validate` throws.
+template <class Validate>
+void collect(Problems& problems, const Validate& validate) {
+  try {
+    validate();
+  } catch (const InputError& error) {
+    problems.push_back(error.what());
+  }
+}
+
+/// Adds the problems of fractures that lie near one another.
+void validate_pairs(const Geometry& geometry, Problems& problems) {
+  std::vector<Segment> segments;
+  std::vector<int> owner;
+  for (std::size_t f = 0; f < geometry.fractures.size(); ++f)
+    for (const Segment& segment : segments_of(geometry.fractures[f].points)) {
+      if (!segment.from.allFinite() || !segment.to.allFinite()) continue;
+      segments.push_back(segment);
+      owner.push_back(static_cast<int>(f));
+    }
+  const SegmentTree tree(segments);
+  std::map<std::pair<int, int>, std::vector<std::pair<Segment, Segment>>> near;  // the later fracture first
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    for (const int j : tree.near(segments[i], point_tolerance(geometry.box)))
+      if (owner[j] < owner[i]) near[{owner[i], owner[j]}].emplace_back(segments[j], segments[i]);
+  const double snap = geometry.snap.value_or(0);
+  for (const auto& [pair, there] : near)
+    collect(problems, [&] {
+      validate_pair(geometry.box, geometry.fractures[pair.second], geometry.fractures[pair.first], there, snap);
+    });
 }
 
 void validate_options(const MeshOptions& options) {
@@ -262,15 +322,20 @@ void validate_geometry(const Geometry& geometry, const MeshOptions& options) {
     return;
   }
   validate_box(geometry.box);
-  validate_names(geometry.fractures, "fracture");
-  validate_names(geometry.regions, "region");
-  for (std::size_t i = 0; i < geometry.fractures.size(); ++i) {
-    const FractureGeometry& fracture = geometry.fractures[i];
-    validate_size("size", fracture.size, fracture.origin);
-    validate_fracture(geometry.box, fracture);
-    for (std::size_t j = 0; j < i; ++j) validate_pair(geometry.box, geometry.fractures[j], fracture);
+  Problems problems;
+  validate_names(geometry.fractures, "fracture", problems);
+  validate_names(geometry.regions, "region", problems);
+  const double snap = geometry.snap.value_or(0);
+  for (const FractureGeometry& fracture : geometry.fractures) {
+    collect(problems, [&] {
+      validate_size("size", fracture.size, fracture.origin);
+      validate_fracture(geometry.box, fracture, snap);
+    });
   }
-  for (const RegionGeometry& region : geometry.regions) validate_region(geometry.box, region);
+  validate_pairs(geometry, problems);
+  for (const RegionGeometry& region : geometry.regions)
+    collect(problems, [&] { validate_region(geometry.box, region); });
+  if (!problems.empty()) throw InputError(problems);
   validate_cell_count(geometry, options);
 }
 

@@ -13,6 +13,8 @@
 #include "framework/config/units.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
+#include "framework/meshing/joining/snap_geometry.hpp"
+#include "framework/meshing/short_fractures.hpp"
 #include "framework/meshing/spec/geometry_spec.hpp"
 #include "framework/meshing/validate_geometry.hpp"
 #include "framework/plugin/plugin.hpp"
@@ -239,6 +241,15 @@ void check_output(const Scene& scene) {
                      "about " + quantity_text(std::round(count), "") + " times", "raise 'every'");
 }
 
+/// Joins what nearly touches, and refuses what cannot be meshed.
+void clean_geometry(Scene& scene) {
+  for (const std::string& note : snap_geometry(scene.geometry, scene.mesh))
+    scene.notes.add("lines joined", scene.geometry.snap_origin.text() + ": " + note);
+  validate_geometry(scene.geometry, scene.mesh);
+  if (const std::string note = note_on_short_fractures(scene.geometry, scene.mesh); !note.empty())
+    scene.notes.add("fracture shorter than its cell", note);
+}
+
 void note_unused_materials(Scene& scene, const std::set<std::string>& used) {
   const Node* materials = scene.whole.find("materials");
   if (!materials) return;
@@ -346,7 +357,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   expand_fracture_table(geometry);
   geometry_spec(scene.geometry, folder).read(geometry, read);
   read_section("mesh", mesh_spec(scene.mesh));
-  validate_geometry(scene.geometry, scene.mesh);
+  clean_geometry(scene);
   read_section("time", scene.time.spec());
   read_section("start", scene.start.spec());
   read_section("output", scene.output.spec());
@@ -355,6 +366,7 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   read_section("newton", newton_spec(scene.newton));
 
   const MeshNames names = mesh_names(scene.geometry);
+  for (const std::string& note : names.notes) scene.notes.add(note, scene.geometry.file_origin.text() + ": " + note);
   read.region_names = names.regions;
   read.fracture_names = names.fractures;
   read.fracture_values.resize(names.fractures.size());

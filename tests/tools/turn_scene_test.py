@@ -78,15 +78,16 @@ class Turned(unittest.TestCase):
                     self.assertLess(found, 2e-3, name)
 
     def test_conditions_in_the_frame_of_each_side(self):
-        self.assertEqual(turn_scene.along_side("left", {"displacement": "[1 mm, -2 mm]"}),
+        motion = turn_scene.Motion(30, (0, 0), (0, 0))
+        self.assertEqual(turn_scene.along_side("left", {"displacement": ["1 mm", "-2 mm"]}, motion),
                          {"displacement": None, "displacement_normal": "-1.0 mm", "displacement_tangential": "2.0 mm"})
-        self.assertEqual(turn_scene.along_side("top", {"displacement_x": "1 mm", "traction_y": "-3 MPa"}),
+        self.assertEqual(turn_scene.along_side("top", {"displacement_x": "1 mm", "traction_y": "-3 MPa"}, motion),
                          {"displacement_x": None, "displacement_tangential": "-1.0 mm", "traction_y": None,
-                          "normal_stress": "-3.0 MPa"})
-        self.assertEqual(turn_scene.along_side("bottom", {"traction": "[1 Pa, 2 Pa]"}),
-                         {"traction": None, "shear_stress": "1.0 Pa", "normal_stress": "-2.0 Pa"})
-        self.assertEqual(turn_scene.along_side("right", {"normal_stress": "-1 Pa"}), {})
-        self.assertEqual(turn_scene.along_side("bottom", {"traction": "[1 Pa, 2 Pa]"}, handedness=-1),
+                          "normal_stress": "-3 MPa"})
+        self.assertEqual(turn_scene.along_side("bottom", {"traction": ["1 Pa", "2 Pa"]}, motion),
+                         {"traction": None, "shear_stress": "1 Pa", "normal_stress": "-2.0 Pa"})
+        self.assertEqual(turn_scene.along_side("right", {"normal_stress": "-1 Pa"}, motion), {})
+        self.assertEqual(turn_scene.along_side("bottom", {"traction": ["1 Pa", "2 Pa"]}, turn_scene.Motion(30, (0, 0), (0, 0), mirror=True)),
                          {"traction": None, "shear_stress": "-1.0 Pa", "normal_stress": "-2.0 Pa"})
 
     def test_stress_turns_with_the_box(self):
@@ -148,11 +149,74 @@ output: {{probes: {{u: {{of: rock.displacement, at: [0.9 m, 0.8 m]}}, p: {{of: p
                 print(f"{kind}, {name}: {found:.1e}")
                 self.assertLess(found, 1e-8, name)
 
+    def test_tensors_and_expressions_turn_with_the_box(self):
+        """Flow and rock with each form of a tensor, and data that depend on the place and on time. Each form changes the answer."""
+        base = """
+geometry: {box: {x: [1 m, 3 m], y: [0 m, 1 m]}, regions: {left half: {polygon: [[1 m, 0 m], [2 m, 0 m], [2 m, 1 m], [1 m, 1 m]]}}}
+mesh: {kind: structured, cells: [6, 4]}
+materials: {gravity: [0 m/s^2, -9.81 m/s^2], viscosity: 1 mPa*s, permeability: 1e-15 m^2}
+components:
+  pore: {type: matrix_flow/mpfa, storage: 1e-9 1/Pa, boundary: {left: {pressure: (1e6*(1 + 0.3*y)) Pa}, right: {pressure: 0.2*MPa + 0.1*MPa/m*y}}}
+  rock: {type: poromechanics/mpsa, young_modulus: (1e10*(1 + 0.1*x*y)) Pa, poisson_ratio: 0.25, rock_density: 2000 kg/m^3,
+         boundary: {left: {displacement_x: (1e-4*y*(t/h)) m, displacement_y: 0 m}, right: {traction: [(-1e6*y) Pa, 1 MPa]}, top: {shear_stress: (1e5*x) Pa}}}
+couplers: [{type: biot, between: [pore, rock], biot_coefficient: 0.8}]
+schedule: [{solve: [pore, rock]}]
+time: {end: 1 h, step: 30 min}
+output: {probes: {u: {of: rock.displacement, at: [2.6 m, 0.7 m]}, p: {of: pore.pressure, at: [1.7 m, 0.4 m]}}}
+"""
+        forms = {"by_angle": ("pore", "permeability: {along: (1e-15*(1 + 0.2*x)) m^2, across: 1e-16 m^2, angle: 25 deg}"),
+                 "by_entries": ("pore", "permeability: {xx: 2e-15 m^2, yy: (1e-15*(1 + y)) m^2, xy: -5e-16 m^2}"),
+                 "by_region": ("pore", "permeability: {regions: {left half: {along: 1e-15 m^2, across: 1e-16 m^2, angle: 0.4 rad}, default: 1e-15 m^2}}"),
+                 "stress": ("rock", "initial_stress: {xx: (-1e6*(1 + x)) Pa, yy: -2 MPa, xy: (2e5*y) Pa}"),
+                 "force": ("rock", "body_force: [(1e6*x*y) N/m^3, 2e5 N/m^3]")}
+        answers = []
+        for name, (owner, line) in forms.items():
+            scene = self.folder / f"{name}.yaml"
+            scene.write_text(base.replace(f"  {owner}: {{", f"  {owner}: {{{line}, "), encoding="utf-8")
+            straight = run(self.folder / f"{name}_straight", scene)
+            answers.append((straight["p[Pa]"][-1], straight["u.x[m]"][-1]))
+            for angle, mirror in ((30, False), (75, True)):
+                file, motion = turn_scene.turn(scene, self.folder / f"{name}_{angle}", angle, (0.3, -0.2), (), PROGRAM, mirror)
+                turned = along_box(run(self.folder / f"{name}_{angle}_results", scene, file), motion.turn)
+                for column in ("u.x[m]", "u.y[m]", "p[Pa]"):
+                    self.assertLess(difference(straight, turned, column), 1e-9, f"{name}, {angle}, {column}")
+        self.assertEqual(len(set(answers)), len(forms))
+
+    def test_stiffness_turns_with_the_box(self):
+        scene = self.folder / "scene.yaml"
+        scene.write_text("""
+geometry: {box: {x: [0 m, 2 m], y: [0 m, 1 m]}}
+mesh: {kind: structured, cells: [4, 3]}
+components:
+  rock: {type: poromechanics/mpsa, stiffness: {xxxx: 40 GPa, yyyy: 20 GPa, xyxy: 7 GPa, xxyy: 6 GPa, xxxy: 2 GPa, yyxy: -1 GPa},
+         boundary: {left: {displacement: [0 m, 0 m]}, right: {traction: [2 MPa, 1 MPa]}}}
+schedule: [{solve: rock}]
+time: {end: 1 h, step: 1 h}
+output: {probes: {u: {of: rock.displacement, at: [1.7 m, 0.6 m]}}}
+""", encoding="utf-8")
+        straight = run(self.folder / "straight", scene)
+        for angle, mirror in ((30, False), (0, True), (110, True)):
+            file, motion = turn_scene.turn(scene, self.folder / f"{angle}", angle, (0, 0), (), PROGRAM, mirror)
+            turned = along_box(run(self.folder / f"{angle}_results", scene, file), motion.turn)
+            for name in ("u.x[m]", "u.y[m]"):
+                self.assertLess(difference(straight, turned, name), 1e-10)
+
     def test_what_cannot_be_turned_is_refused(self):
-        for setting, reason in (("components.rock.boundary.left.displacement_x=(1e-3*t/h) m", "no number"),
-                                ("materials.permeability={xx: 1e-20 m^2, yy: 2e-20 m^2}", "a tensor")):
-            with self.subTest(setting), self.assertRaisesRegex(SystemExit, reason):
-                turn_scene.turn(WINGS, self.folder, settings=[setting], program=PROGRAM)
+        (self.folder / "survey.csv").write_text("x,p[MPa]\n0,1\n2,2\n", encoding="utf-8")
+        (self.folder / "pull.csv").write_text("t[h],u[mm]\n0,0\n1,2\n", encoding="utf-8")
+        table = f"{{table: {self.folder}/survey.csv, of: x}}"
+        for setting, reason in ((f"components.pore.initial_pressure={table}", "its axes are those of the box"),
+                                (f"components.rock.boundary.left.displacement_x={{table: {self.folder}/pull.csv}}", "its sign would change"),
+                                ("materials.permeability={along: 1e-20 m^2, across: 2e-20 m^2, angle: 0.1*rad}", "no number")):
+            with self.subTest(setting), self.assertRaisesRegex(turn_scene.CannotTurn, reason):
+                turn_scene.turn(WINGS, self.folder / "new", settings=["materials.permeability=", setting] if "permeability" in setting else [setting],
+                                program=PROGRAM)
+            self.assertFalse((self.folder / "new").exists())
+        done = subprocess.run([ROOT / "tools/turn_scene", WINGS, self.folder / "new", "--program", PROGRAM, "--set", f"components.pore.initial_pressure={table}"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, "^turn_scene: cannot turn components.pore.initial_pressure .*give|use")
+        self.assertFalse((self.folder / "new").exists())
 
 
 unittest.main()

@@ -163,6 +163,12 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                       },
                       {.doc = "Polygons that the mesh conforms to, by name; the rest is called " + medium_name() +
                               ", and later ones cover earlier ones."});
+  spec.quantity("snap", geometry.snap,
+                {.unit = "m",
+                 .range = non_negative(),
+                 .doc = "Ends, points and crossings of fractures and regions that are nearer to one another, to a line "
+                        "or to a side are joined, and parts that lie on a fracture already are left out; by default a "
+                        "hundredth of the shortest cell that the mesh is asked for, and 0 joins nothing."});
   spec.check([&geometry, folder, sets](const Node& whole) {
     const bool has_box = whole.find("box"), has_file = geometry.is_imported();
     if (has_box == has_file) {
@@ -171,7 +177,11 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                        "it needs exactly one of them", "write box: {x: [0 m, 1 m], y: [0 m, 1 m]}");
     }
     draw_sets(*sets, geometry);
+    geometry.snap_origin = origin_of(whole, "snap");
     if (!has_file) return;
+    if (geometry.snap)
+      throw InputError(geometry.snap_origin, "'snap' is given together with a mesh file",
+                       "it joins the lines of a box before these are meshed", "remove 'snap'");
     geometry.file_origin = origin_of(whole, "file");
     if (std::filesystem::path(geometry.file).is_relative() && folder != ".") {
       geometry.file = (std::filesystem::path(folder) / geometry.file).string();
@@ -219,7 +229,9 @@ Spec mesh_spec(MeshOptions& options) {
       {.unit = "",
        .range = between(0, 10),
        .doc = "Unstructured: how many edges a gap between a fracture and a side, another fracture, another part "
-              "of itself or an edge of a region has across, where that makes shorter ones; 0 leaves gaps alone."});
+              "of itself or an edge of a region has across, where that makes shorter ones; 0 leaves gaps, and short "
+              "pieces "
+              "of fractures, alone."});
   spec.quantity(
       "gap_length", options.gap_length,
       {.unit = "",

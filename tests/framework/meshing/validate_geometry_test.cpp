@@ -96,10 +96,29 @@ TEST(ValidateGeometry, RefusesWrongPolygons) {
   EXPECT_THAT(refusal_of(region("thin", {{0, 0}, {1, 1}})),
               AllOf(HasSubstr("scene.yaml:9:5"), HasSubstr("region 'thin' has fewer than three points")));
   EXPECT_THAT(refusal_of(region("line", {{0, 0}, {1, 1}, {1.5, 1.5}})), HasSubstr("region 'line' has no area"));
-  EXPECT_THAT(refusal_of(region("bow", {{0, 0}, {1, 1}, {1, 0}, {0, 1.5}})), HasSubstr("region 'bow' meets itself"));
+  // Bow ties, also one whose halves have the same area: it does not lie on a line.
+  for (const double turn : {0.0, 0.3, 2.0})
+    for (const double other : {1.0, 1.5}) {
+      RegionGeometry bow = region("bow", {{-0.5, -0.5}, {0.5, 0.5}, {0.5, -0.5}, {-0.5, other - 0.5}});
+      for (Point& x : bow.polygon)
+        x = Point(1 + std::cos(turn) * x.x() - std::sin(turn) * x.y(),
+                  1 + std::sin(turn) * x.x() + std::cos(turn) * x.y());
+      EXPECT_THAT(refusal_of(bow), AllOf(HasSubstr("region 'bow' crosses itself"), HasSubstr("edges 1 and 3 cross at"),
+                                         testing::Not(HasSubstr("lie on a line"))));
+    }
+  EXPECT_THAT(refusal_of(region("bow", {{0, 0}, {1, 1}, {1, 0}, {0, 1}})), HasSubstr("cross at (0.5, 0.5)"));
+  EXPECT_THAT(refusal_of(region("touch", {{0, 0}, {1, 0}, {1, 1}, {0.5, 0}, {0, 1}})), HasSubstr("meets itself"));
   EXPECT_THAT(refusal_of(region("closed", {{0, 0}, {1, 0}, {1, 1}, {0, 0}})), HasSubstr("the same point twice"));
   EXPECT_THAT(refusal_of(region("out", {{0, 0}, {3, 0}, {1, 1}})), HasSubstr("region 'out' leaves the box"));
   EXPECT_THAT(refusal_of(region("medium", {{0, 0}, {1, 0}, {1, 1}})), HasSubstr("a polygon is called 'medium'"));
+}
+
+TEST(ValidateGeometry, TellsAllConflictsTogether) {
+  const std::string told = refusal_of({fracture("out", {{1, 1}, {2.5, 1}}), fracture("zero", {{1.5, 1.5}, {1.5, 1.5}}),
+                                       fracture("a", {{0, 0.5}, {1, 0.5}}), fracture("b", {{0, 0.5}, {1, 0.2}}),
+                                       fracture("c", {{0.5, 0.5}, {1, 0.5}})});
+  EXPECT_THAT(told, AllOf(HasSubstr("'out' leaves the box"), HasSubstr("'zero' has a segment of length zero"),
+                          HasSubstr("'b' meets fracture 'a'"), HasSubstr("'c' overlaps fracture 'a'")));
 }
 
 TEST(ValidateGeometry, RefusesWrongSizes) {
