@@ -100,7 +100,7 @@ class NetworkTwins(SceneRuns):
 
     def moved(self, name):
         """The files of the scene after a motion, on its own mesh."""
-        _, places, cells, lines = turn_scene.read_scene(SCENE, self.settings, SPREKK)
+        _, places, cells, _, lines = turn_scene.read_scene(SCENE, self.settings, SPREKK)
         middle = 0.5 * (places.min(0) + places.max(0))
         matrix = MATRICES[name]
         header, *rows = [row.split(",") for row in self.rows]
