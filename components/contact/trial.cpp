@@ -72,16 +72,15 @@ Trial FrictionalContact::trial(int i) const {
   t.gap = gap(i, traction_.now(), jump_.now());
   t.gap_by_traction = closure_by_traction(traction_.now()[row]);
   t.dilation = dilation_at(i, slip);
-  t.strength.friction = friction_[i];
+  t.strength = weakening_.at(friction_[i], dynamic_friction(i), path_ ? path(i, t.gap) : 0);
   t.path_by_slip.setZero();
   t.path_by_gap = 0;
   if (path_) {
-    t.strength = weakening_.at(friction_[i], dynamic_friction(i), path(i, t.gap));
     const double before = std::max(0.0, gap(i, traction_.accepted(), jump_.accepted()));
     t.path_by_gap = t.gap > before;
   }
   t.tension = t.strength.tension;
-  t.holds_open = t.strength.cohesion > 0;
+  t.holds_open = path_ && t.strength.cohesion > 0;
   t.gap -= overlap(i);
   const TangentialVector f_t = tangential(traction_.now(), i);
   TangentialVector slipped = u_t - tangential(jump_.accepted(), i);

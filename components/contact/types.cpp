@@ -29,8 +29,8 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   spec.quantity("cohesion", weakening.cohesion,
                 {.unit = "Pa",
                  .range = non_negative(),
-                 .doc = "Shear traction that walls hold without pressure, |f_t| <= cohesion - friction f_n. "
-                        "`weakening` says how it is lost."});
+                 .doc = "Shear traction that walls in contact hold without pressure, |f_t| <= cohesion - friction f_n. "
+                        "Open walls hold nothing, unless `weakening` says how it is lost."});
   spec.quantity("tensile_strength", weakening.tensile_strength,
                 {.unit = "Pa",
                  .range = non_negative(),
@@ -58,9 +58,9 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
     if (weakens && depends_on_rate)
       throw InputError(node.find("rate_and_state")->origin, "'rate_and_state' and 'weakening' exclude each other",
                        "each says how friction changes with slip", "remove one of them");
-    if (!weakens && weakening.cohesion > 0)
-      throw InputError(node.origin, "'cohesion' is never lost", "the scene has no 'weakening'",
-                       "add weakening: {distance: ...} with the path over which it is lost");
+    if (depends_on_rate && weakening.cohesion > 0)
+      throw InputError(node.find("cohesion")->origin, "'cohesion' has no effect",
+                       "with 'rate_and_state' walls always creep, and hold what that law says", "remove one of them");
     if (!weakens && weakening.tensile_strength > 0)
       throw InputError(node.origin, "'tensile_strength' is never lost", "the scene has no 'weakening'",
                        "add weakening: {distance: ...} with the path over which it is lost");

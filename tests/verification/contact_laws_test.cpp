@@ -83,6 +83,18 @@ TEST(ContactLaws, CohesionHoldsWalls) {
   expect_uniform({-0.02, 0.0139}, {0, 0}, 0.5, 0, "cohesion: 4 mPa, weakening: {distance: 2 mm}");
 }
 
+/// Cohesion without weakening: walls that touch hold c + mu N however far they have slid, and parted walls nothing.
+TEST(ContactLaws, CohesionThatStays) {
+  for (const double sign : {1.0, -1.0}) {
+    for (const double slip : {1e-6, 5e-4, 3e-2}) {
+      expect_uniform({-0.02, sign * 0.014}, {slip * std::tan(0.1), sign * slip}, 0.5, 0.1, "cohesion: 4 mPa");
+      expect_uniform({-0.02, sign * 0.004}, {0, sign * slip}, 0, 0, "cohesion: 4 mPa");  // of Tresca
+    }
+    expect_uniform({-0.02, sign * 0.0139}, {0, 0}, 0.5, 0, "cohesion: 4 mPa");
+    expect_uniform({0, 0}, {1e-3, sign * 5e-4}, 0.5, 0.1, "cohesion: 4 mPa");
+  }
+}
+
 TEST(ContactLaws, TensileStrengthThatIsLost) {
   for (const double opening : {1e-4, 1e-3, 3e-3})
     expect_uniform({0.004 * std::max(0.0, 1 - opening / 2e-3), 0}, {opening, 0}, 0.5, 0.1,
@@ -137,7 +149,10 @@ TEST(ContactLaws, RefusesLawsWithoutMeaning) {
     return "accepted";
   };
   using ::testing::HasSubstr;
-  EXPECT_THAT(message("cohesion: 1 Pa"), HasSubstr("never lost"));
+  EXPECT_EQ(message("cohesion: 1 Pa"), "accepted");
+  EXPECT_THAT(message("cohesion: 1 Pa, rate_and_state: {a: 0.01, b: 0.02, distance: 1 mm, reference_rate: 1e-6 m/s, "
+                      "initial_slip_rate: 1e-9 m/s}"),
+              HasSubstr("'cohesion' has no effect"));
   EXPECT_THAT(message("tensile_strength: 1 Pa"), HasSubstr("never lost"));
   EXPECT_THAT(message("weakening: {friction: 0.1}"), HasSubstr("distance"));
   EXPECT_THAT(message("closure: {law: linear}"), HasSubstr("'stiffness' is missing"));

@@ -16,7 +16,8 @@ struct Strength {
 
 /// Linear weakening: with m = min(1, q/D) friction is mu_s − m (mu_s − mu_d), cohesion and tensile strength are 1 − m
 /// of their values at the start (for friction: Ida, J. Geophys. Res. 77 (1972) 3796; Andrews, J. Geophys. Res. 81
-/// (1976) 3575). The path q counts all slip, forth and back, and all opening: what is lost does not come back.
+/// (1976) 3575). The path q counts all slip, forth and back, and all opening: what is lost does not come back. Without
+/// a distance nothing is lost: friction and cohesion are those of Mohr and Coulomb.
 struct Weakening {
   double distance = 0;          ///< D, m; 0 without weakening
   double cohesion = 0;          ///< Pa
@@ -24,7 +25,7 @@ struct Weakening {
 
   bool is_on() const { return distance > 0; }
   Strength at(double static_friction, double dynamic_friction, double path) const {
-    Strength s{static_friction};
+    Strength s{static_friction, cohesion, tensile_strength};
     if (!is_on()) return s;
     const double lost = std::min(1.0, path / distance), rate = path < distance ? 1 / distance : 0.0;
     // A friction that is below mu_d already does not rise.

@@ -41,6 +41,17 @@ TEST(Weakening, IsLinearAndEnds) {
   EXPECT_EQ(law.at(0.1, 0.2, 1).friction, 0.1);  // below the dynamic friction already
 }
 
+TEST(Weakening, WithoutADistanceLosesNothing) {
+  const Weakening law{0, 4e6, 0};
+  for (const double path : {0.0, 1e-3, 10.0}) {
+    const Strength strength = law.at(0.6, 0.2, path);
+    EXPECT_EQ(strength.friction, 0.6);
+    EXPECT_EQ(strength.cohesion, 4e6);
+    EXPECT_EQ(strength.friction_by_path, 0);
+    EXPECT_EQ(strength.cohesion_by_path, 0);
+  }
+}
+
 /// Units of the stiffness of the walls: tractions and jumps of the same size.
 Options all_laws() {
   Options options;
@@ -53,23 +64,30 @@ Options all_laws() {
   return options;
 }
 
+Options mohr_coulomb() {
+  Options options;
+  options.weakening.cohesion = 2;
+  return options;
+}
+
 TEST(Laws, HaveTheDerivativesOfTheirConditions) {
   const Mesh mesh = crossing();
-  for (const Multiplier multiplier : {Multiplier::present, Multiplier::last, Multiplier::none}) {
-    Contact contact(mesh, {}, all_laws(), multiplier);
-    const int cells = mesh.fracture_cell_count();
-    contact.law().set_wall_stiffness(Vector::LinSpaced(2 * cells, 1, 2));
-    std::mt19937 random(5);
-    int counts[3] = {0, 0, 0};
-    for (int number = 0; number < 20; ++number) {
-      SCOPED_TRACE(number);
-      const Sample sample(contact, cells, random);
-      for (int i = 0; i < cells; ++i) ++counts[static_cast<int>(contact.law().state(i))];
-      expect_differences(contact, sample, 1e-6, 1e-7);
+  for (const Options& options : {all_laws(), mohr_coulomb()})
+    for (const Multiplier multiplier : {Multiplier::present, Multiplier::last, Multiplier::none}) {
+      Contact contact(mesh, {}, options, multiplier);
+      const int cells = mesh.fracture_cell_count();
+      contact.law().set_wall_stiffness(Vector::LinSpaced(2 * cells, 1, 2));
+      std::mt19937 random(5);
+      int counts[3] = {0, 0, 0};
+      for (int number = 0; number < 20; ++number) {
+        SCOPED_TRACE(number);
+        const Sample sample(contact, cells, random);
+        for (int i = 0; i < cells; ++i) ++counts[static_cast<int>(contact.law().state(i))];
+        expect_differences(contact, sample, 1e-6, 1e-7);
+      }
+      if (multiplier == Multiplier::none) continue;  // whose states depend on jumps only
+      for (const int count : counts) EXPECT_GT(count, 10);
     }
-    if (multiplier == Multiplier::none) continue;  // whose states depend on jumps only
-    for (const int count : counts) EXPECT_GT(count, 10);
-  }
 }
 
 }  // namespace
