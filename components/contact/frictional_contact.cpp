@@ -208,13 +208,17 @@ int FrictionalContact::piece(int i) const {
   if (!is_on_fracture_cell(i)) return 0;
   const Trial t = trial(i);
   const State now = t.state();
-  const bool knows_direction = now == State::slip && friction_[i] > 0;
+  const bool knows_direction = now == State::slip && (friction_[i] > 0 || weakening_.cohesion > 0);
   const int piece = 2 * static_cast<int>(now) + (knows_direction && is_forward(t.tangential));
   if (!follows_pieces_) return piece;
   if (is_bonded(i)) return 0;
   const bool has_kink = dilation_[i] > 0 && now != State::open;
   const bool is_worn = has_kink && t.dilation == 0;
-  return 3 * piece + (is_worn ? 2 : has_kink && is_forward(t.slip_direction));
+  const int kink = 3 * piece + (is_worn ? 2 : has_kink && is_forward(t.slip_direction));
+  if (!path_ || now == State::stick) return kink;
+  // What is left of the strength depends on the size of the slip in the step, and ends where all is lost.
+  const bool is_spent = path(i, gap(i, traction_.now(), jump_.now())) >= weakening_.distance;
+  return 3 * kink + (is_spent ? 2 : is_forward(t.path_by_slip));
 }
 
 /// Opens all cells by a very small amount. The amount makes no difference, since the conditions of open cells are

@@ -17,6 +17,7 @@
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/assembly/softening.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/limits_step.hpp"
 
@@ -67,6 +68,7 @@ class FrictionalContact : public Component,
                           public NotesStart,
                           public GainsFromStages,
                           public LivesInPart,
+                          public Softening,
                           public LimitsStep {
  public:
   /// `stiffness_factor`: the stiffness of the springs between the walls over that of the rock against a jump of the
@@ -113,6 +115,12 @@ class FrictionalContact : public Component,
   void accepted() override;
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
+  /// Walls that weaken and have slipped or opened in this step (runaway.cpp).
+  bool has_softened() const override;
+  /// The slip of cells that slip, and the opening of cells that part against their tensile strength.
+  FreeValues free_values() const override;
+  std::string tell_loss(const LossOfStability& loss) const override;
+  void note_passed(const std::string& told, Notes& notes) const override;
   double longest_step(double start) const override;
   std::optional<StepTooLong> too_long(const StepTime& step) const override;
 

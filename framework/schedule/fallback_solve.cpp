@@ -42,6 +42,7 @@ StepStatus FallbackSolve::solve(const StepTime& step, const StepStatus& failed) 
 
 void FallbackSolve::note_step(Notes& notes, const StepTime& step) const {
   if (!used_in_ || used_in_->start < step.start) return;
+  together_->note_step(notes, step);
   std::string names;
   for (const Field* field : unknowns_)
     if (names.find(field->spec().owner) == std::string::npos)

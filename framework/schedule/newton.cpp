@@ -211,7 +211,13 @@ StepStatus Newton::solve(const StepTime& step, const Stabilization& stabilizatio
   StepStatus status = search(step, start);
   // The larger number of iterations is the measure for adaptive steps; with the sum, steps would become shorter.
   if (status.converged) status.iterations = std::max(status.iterations, keep_states(step, start));
+  if (passed_ && step.start <= passed_in_.start && step.end <= passed_in_.end) passed_.reset();
+  if (status.converged) follow_softening(step);
   return status;
+}
+
+void Newton::note_step(Notes& notes, const StepTime& step) const {
+  if (passed_ && passed_in_.start >= step.start) passed_->part->note_passed(passed_->told, notes);
 }
 
 StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start) {
@@ -233,10 +239,23 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
   };
   StepStatus status = attempt_also_without_conditions(Until::search);
   if (status.converged) return status;
+  const bool is_nonlinear = std::ranges::any_of(parts_, [](const Part* part) {
+    const auto* nonlinear = dynamic_cast<const NonlinearInPieces*>(part);
+    return nonlinear && nonlinear->is_nonlinear_in_pieces();
+  });
   const SearchModeGuard guard(SearchMode::without_shortcuts, SearchMode::with_shortcuts, parts_);
+  // Without shortcuts such parts come near the solution surely and slowly. From there their own derivatives are quick.
+  const auto finish_with_own_derivatives = [&] {
+    if (status.converged || !is_nonlinear || !is_used_up_) return;
+    const SearchModeGuard own(SearchMode::piecewise, SearchMode::without_shortcuts, parts_);
+    StepStatus finished = attempt(step, options_.undamped);
+    finished.iterations += status.iterations;
+    status = finished;
+  };
   if (was_left_) {
     set(start);
     status = attempt_also_without_conditions(Until::end);
+    finish_with_own_derivatives();
   }
   if (status.converged) return status;
   if (status.iterations <= 1) return status;
@@ -245,11 +264,8 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     const int before = status.iterations;
     status = attempt(step, 0);
     status.iterations += before;
+    finish_with_own_derivatives();
   }
-  const bool is_nonlinear = std::ranges::any_of(parts_, [](const Part* part) {
-    const auto* nonlinear = dynamic_cast<const NonlinearInPieces*>(part);
-    return nonlinear && nonlinear->is_nonlinear_in_pieces();
-  });
   if (status.converged || !(state_has_changed_ || is_nonlinear) || options_.pieces == 0) return status;
   const bool is_used_up = is_used_up_;
   const std::vector<Vector> tried = values();
@@ -260,6 +276,11 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     set(start);
     StepStatus path = follow_path(step, mode);
     status.iterations += path.iterations;
+    if (lost_ && mode == SearchMode::piecewise) {
+      status.reason = lost_->told;
+      status.is_hopeless = least_iterations_ == 0;  // in an iteration other unknowns are held
+      break;
+    }
     // Iterates from the end of the path with the true coefficients, until balances hold.
     if (path.converged) {
       const std::vector<Vector> end = values();
@@ -275,6 +296,7 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     }
     if (path.converged) return {true, "", status.iterations};
     status.reason += "; then " + path.reason;
+    if (is_path_stuck_) break;  // with other derivatives its pieces are the same
   }
   last_failed_path_ = step;
   if (is_used_up) set(tried);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/assembly/block_system.hpp"
 #include "framework/assembly/part.hpp"
+#include "framework/assembly/softening.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_step.hpp"
@@ -47,6 +49,11 @@ struct NewtonOptions {
 /// once more with these states kept; those that do not fulfil their conditions are released, until all do. The result
 /// is taken as the solution.
 ///
+/// Where places lose strength as they move (Softening), the path also tells whether equilibria lead from the accepted
+/// state to the solution. Small parts of the load move it from s = 1 to 0, so where it turns for the first time the
+/// equilibria end: the stiffness condensed to the free values has a negative eigenvalue from there on. A step without a
+/// solution then ends with that reason (StepStatus::is_hopeless), and a solution beyond is kept with a note.
+///
 /// Repeating a call from the same fields gives the same bits.
 class Newton {
  public:
@@ -67,6 +74,8 @@ class Newton {
   /// then, or of the only one.
   bool has_used_up_iterations() const { return is_used_up_; }
   void set_preconditioner_stabilization(const Stabilization& stabilization);
+  /// Adds notes on a step that is about to be accepted.
+  void note_step(Notes& notes, const StepTime& step) const;
 
  private:
   std::unique_ptr<Assembly> assemble(const StepTime& step);
@@ -104,6 +113,20 @@ class Newton {
   StepStatus release_coefficients(const StepTime& step, const std::vector<Vector>& start);
   /// Releases the coefficients that Part::hold_coefficients holds up to `share`, and attempts to solve.
   StepStatus attempt_with_share(const StepTime& step, double share);
+  /// Motion that runs away.
+  struct Loss {
+    const Softening* part;  ///< whose places move
+    std::string told;
+  };
+  /// Whether the free values of all parts have lost their stability, also over the shortest time. The derivatives of
+  /// the present values are factorized; afterwards they may be those of a very short step. `time`: when, s.
+  std::optional<Loss> find_loss(const StepTime& step, double time);
+  /// The same with the derivatives that are factorized.
+  std::optional<Loss> find_loss(double time);
+  /// After a solution: looks whether a path leads to it. If it leads to another one, that is taken.
+  void follow_softening(const StepTime& step);
+  /// Whether the present values are another solution than these.
+  bool is_elsewhere(const std::vector<Vector>& solution) const;
   void set(const std::vector<Vector>& values);
   void step_off_kinks(const LinearSystem& system, const Vector& update);
   /// Whether the residuals have converged and the next update is below its tolerance.
@@ -126,7 +149,11 @@ class Newton {
   bool was_singular_ = false;          ///< whether the last attempt ended with a singular system
   bool is_used_up_ = false;            ///< whether the last attempt has used up its iterations
   bool was_left_ = false;              ///< whether the last attempt ended at Until::search
-  StepTime last_failed_path_;          ///< the last step whose path failed; a hardly shorter step does not try again
+  bool is_path_stuck_ = false;         ///< whether the last path has ended because it gained nothing
+  std::optional<Loss> lost_;           ///< where the last path has ended
+  std::optional<Loss> passed_;         ///< by the solution of the step `passed_in_`
+  StepTime passed_in_;
+  StepTime last_failed_path_;  ///< the last step whose path failed; a hardly shorter step does not try again
   const Stabilization* stabilization_ = nullptr;
   const Responses* responses_ = nullptr;
   std::map<const Field*, Vector> start_;

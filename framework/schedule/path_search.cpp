@@ -82,6 +82,12 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
   std::uint64_t left = 0;    // the last piece before the present one
   bool has_crossed = false;  // since the last whole step
   int whole_steps = 0;
+  constexpr int patience = 30;         // pieces
+  constexpr double least_gain = 1e-6;  // of s
+  double share = 1, least_share = 1;   // s
+  int without_gain = 0;
+  lost_.reset();
+  is_path_stuck_ = false;
   ResidualCheck check = evaluate(step);
   for (int iteration = 0; iteration < options_.pieces; ++iteration) {
     const auto fails = [iteration](const std::string& reason) { return StepStatus{false, reason, iteration + 1}; };
@@ -113,17 +119,27 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
     }
     if (is_reversed) {
       // The determinant has changed its sign: s grows from here until the path turns again.
+      set(from);
+      lost_ = find_loss(step, step.start + (1 - share) * step.dt);
+      if (lost_) return fails(lost_->told);
       update = -update;
       crossing = first_crossing(is_same, far);
       if (!crossing) return fails("the path leads to infinity");
     }
     const double length = crossing ? crossing->behind : 1;
+    share *= is_reversed ? 1 + length : 1 - length;
     move(from, update, length);
     check = evaluate(step);
     if (log_)
       log_({step, name_, iteration, check.largest, check.equation, relative_size(update, check),
             is_reversed ? -length : length, check.of_equations});
     if (is_solution(check)) return {true, "", iteration + 1};
+    without_gain = share < (1 - least_gain) * least_share ? 0 : without_gain + 1;
+    if (without_gain == 0) least_share = share;
+    is_path_stuck_ = without_gain == patience;
+    if (is_path_stuck_)
+      return fails(fmt::format("the path has gained nothing in {} pieces ({:.2g} of the residual is left)", patience,
+                               least_share));
     has_crossed = crossing.has_value();
     if (has_crossed) {
       left = piece;

@@ -319,6 +319,30 @@ TEST(PathSearch, SaysThatItLeadsToInfinity) {
   EXPECT_NE(status.reason.find("infinity"), std::string::npos) << status.reason;
 }
 
+TEST(PathSearch, EndsWhereItGainsNothing) {
+  // Hills of the same height one behind the other, before the line rises through zero: each has two pieces.
+  const auto solve = [](PolylineEquation& equation, int hills, double lower) {
+    std::vector<Point> corners = {{-10, -9}, {1, -0.2}};
+    for (int k = 0; k < hills; ++k) {
+      corners.emplace_back(2 * k + 2, -0.6);
+      corners.emplace_back(2 * k + 3, -0.2 + (k + 1) * lower);
+    }
+    corners.emplace_back(2 * hills + 2, -0.6);
+    return equation.solve(corners, 0.5, 0, 300);
+  };
+  for (const int hills : {12, 17}) {
+    PolylineEquation equation;
+    const StepStatus status = solve(equation, hills, 0);
+    EXPECT_EQ(status.converged, hills == 12) << status.reason;
+    EXPECT_EQ(status.reason.find("gained nothing") != std::string::npos, hills == 17) << status.reason;
+  }
+  // Each hill is higher than the one before: the path gains a little at each, and goes on.
+  PolylineEquation equation;
+  const StepStatus status = solve(equation, 100, 1e-3);
+  EXPECT_TRUE(status.converged) << status.reason;
+  EXPECT_NEAR(equation.x.now()[0], 203.2, 1e-10);
+}
+
 TEST(PathSearch, LooksALongWayForTheNextPieceButNotForEver) {
   // Behind the hill at 1 the line falls by 0.4 to a valley that is `lengths` updates away, and rises by 0.5 from there
   // on.
