@@ -47,7 +47,9 @@ void MatrixFlow::round_limited(double rounding) {
 
 void MatrixFlow::set_search_mode(SearchMode mode) {
   if (!is_limited_ || is_sealed_) return;
-  round_limited(mode == SearchMode::piecewise_linear ? std::numeric_limits<double>::infinity() : 0);
+  round_limited(mode == SearchMode::piecewise_linear    ? std::numeric_limits<double>::infinity()
+                : mode == SearchMode::without_shortcuts ? with_secants
+                                                        : 0);
   rounding_at_first_ = 0;
 }
 

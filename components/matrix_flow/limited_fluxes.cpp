@@ -33,10 +33,23 @@ LimitedFluxes rounded(const Vector& first, const Vector& second, double rounding
   return limited;
 }
 
+LimitedFluxes limit_with_secants(const Vector& first, const Vector& second) {
+  LimitedFluxes limited{Vector::Zero(first.size()), Vector::Zero(first.size()), Vector::Zero(first.size())};
+  for (Eigen::Index i = 0; i < first.size(); ++i) {
+    const double a = first[i], b = second[i], sum = std::abs(a) + std::abs(b);
+    const double share = sum > 0 ? std::abs(b) / sum : 0.5;
+    limited.by_first[i] = share;
+    limited.by_second[i] = 1 - share;
+    if ((a > 0) == (b > 0)) limited.value[i] = 2 * share * a;
+  }
+  return limited;
+}
+
 }  // namespace
 
 LimitedFluxes limit(const Vector& first, const Vector& second, double rounding) {
   SPREKK_EXPECT(first.size() == second.size(), first.size(), second.size());
+  if (rounding == with_secants) return limit_with_secants(first, second);
   SPREKK_EXPECT(rounding >= 0, rounding);
   if (std::isinf(rounding))
     return {(first + second) / 2, Vector::Constant(first.size(), 0.5), Vector::Constant(first.size(), 0.5)};

@@ -16,6 +16,9 @@ struct LimitedFluxes {
 ///
 /// `rounding` (m^2/s) makes it a smooth function, for Newton's method alone: with x+ = (x + sqrt(x² + rounding²))/2 the
 /// mean of both a+ and b+ less that of both (−a)+ and (−b)+. 0 is the function itself, infinity (a + b)/2.
+/// `with_secants`: the function itself, and in place of its derivatives the weights of the convex mean that it is,
+/// |b|/(|a| + |b|) and |a|/(|a| + |b|). These do not jump where a flux changes its sign.
+inline constexpr double with_secants = -1;
 LimitedFluxes limit(const Vector& first, const Vector& second, double rounding = 0);
 
 }  // namespace sprekk::matrix_flow

@@ -123,6 +123,21 @@ TEST(LimitedFluxes, AreAHarmonicMeanWithItsDerivatives) {
   EXPECT_EQ(limit(Vector::Zero(1), Vector::Zero(1)).by_first[0], 0.5);
 }
 
+TEST(LimitedFluxes, AreAConvexMeanWithSecants) {
+  const Vector first = Vector::Random(200), second = Vector::Random(200);
+  const LimitedFluxes exact = limit(first, second), at = limit(first, second, with_secants);
+  EXPECT_LT((at.value - exact.value).lpNorm<Eigen::Infinity>(), 1e-15);
+  EXPECT_LT(
+      (at.by_first.cwiseProduct(first) + at.by_second.cwiseProduct(second) - exact.value).lpNorm<Eigen::Infinity>(),
+      1e-15);
+  EXPECT_LT((at.by_first + at.by_second - Vector::Ones(200)).lpNorm<Eigen::Infinity>(), 1e-15);
+  EXPECT_GE(std::min(at.by_first.minCoeff(), at.by_second.minCoeff()), 0);
+  // They do not jump where a flux changes its sign.
+  const Vector one = Vector::Ones(1), below = Vector::Constant(1, -1e-9), above = Vector::Constant(1, 1e-9);
+  EXPECT_NEAR(limit(below, one, with_secants).by_first[0], limit(above, one, with_secants).by_first[0], 1e-8);
+  EXPECT_NEAR(limit(above, one).by_first[0] - limit(below, one).by_first[0], 2, 1e-8);
+}
+
 TEST(LimitedFluxes, AreSmoothWhereRoundedAndTendToThemselves) {
   const Vector first = Vector::Random(200), second = Vector::Random(200);
   const Vector exact = limit(first, second).value;
