@@ -66,7 +66,7 @@ Options all_laws() {
 
 Options mohr_coulomb() {
   Options options;
-  options.weakening.cohesion = 2;
+  options.weakening.cohesion = 0.5;
   return options;
 }
 
