@@ -204,6 +204,19 @@ class Biot : public Coupler,
                     name()));
   }
 
+  static void note_absence(const std::vector<Component*>& components, Notes& notes) {
+    for (const Component* fluid : components)
+      for (const Component* rock : components) {
+        if (!dynamic_cast<const MatrixFluid*>(fluid) || !dynamic_cast<const PoroelasticRock*>(rock)) continue;
+        const std::string both = fluid->name() + " and " + rock->name();
+        notes.add("no biot between " + both,
+                  "the pressure of " + fluid->name() + " does not load " + rock->name() +
+                      ", and its deformation moves no fluid (there is no coupler biot between them) add '- {type: "
+                      "biot, between: [" +
+                      fluid->name() + ", " + rock->name() + "]}' to 'couplers:', unless that is meant");
+      }
+  }
+
   void note_step(Notes& notes, const StepTime&) const override {
     constexpr double much = 2;
     const double load = rock_.largest_load(), given = fluid_.largest_given_pressure();

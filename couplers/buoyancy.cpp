@@ -10,6 +10,7 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/temperature.hpp"
+#include "components/capabilities/usual_ranges.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -45,17 +46,20 @@ struct BuoyancyOptions {
                    .range = positive(),
                    .doc = "Density at T_0 and p_0; not for the law of water.",
                    .material = true});
+    usually(spec, "fluid_density", usual_fluid_density());
     spec.quantity("fluid_expansion", fluid_expansion,
                   {.unit = "1/K",
                    .range = non_negative(),
                    .doc = "Volumetric expansion coefficient (water: 2.1e-4 1/K at 20 °C, 7.5e-4 1/K at 100 °C).",
                    .material = true});
+    usually(spec, "fluid_expansion", usual_fluid_expansion());
     spec.quantity("reference_temperature", reference_temperature,
                   {.unit = "K", .doc = "T_0, of the linear and the exponential law."});
     spec.quantity("compressibility", compressibility,
                   {.unit = "1/Pa",
                    .range = between(0, 100),
                    .doc = "How much denser the fluid is under pressure (water: 4.5e-10 1/Pa)."});
+    usually(spec, "compressibility", usual_compressibility());
     spec.quantity("reference_pressure", reference_pressure,
                   {.unit = "Pa", .doc = "p_0; the pressure at which the law without compressibility holds."});
     spec.check([this](const Node& node) {

@@ -2,6 +2,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/temperature.hpp"
+#include "components/capabilities/usual_ranges.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -21,6 +22,7 @@ struct ThermalStressOptions {
                .required = true,
                .material = true,
                .in_time = true});
+    usually(spec, "expansion", usual_expansion());
     return spec;
   }
 };

@@ -7,6 +7,7 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/temperature.hpp"
+#include "components/capabilities/usual_ranges.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -27,6 +28,7 @@ struct ThermalViscosityOptions {
                 {.doc = "How it follows the temperature.", .source = "Vogel 1921; Al-Shemmeri 2012"});
     spec.quantity("reference_viscosity", reference_viscosity,
                   {.unit = "Pa*s", .range = positive(), .doc = "Of the exponential law."});
+    usually(spec, "reference_viscosity", usual_viscosity());
     spec.quantity("reference_temperature", reference_temperature, {.unit = "K", .doc = "Of the exponential law."});
     spec.quantity("decay", decay, {.unit = "1/K", .range = non_negative(), .doc = "Of the exponential law."});
     spec.check([this](const Node& node) {

@@ -1,7 +1,10 @@
 // wall_exchange: fluid flows between a fracture and the matrix through its walls (Eq. 9 of the paper).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
@@ -10,6 +13,7 @@
 #include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -41,6 +45,7 @@ class WallExchange : public Coupler, public CountsAmounts, public RestsTogether 
         walls_(context.the<MatrixWalls>()),
         fluid_(context.find<MatrixFluid>()),
         fracture_(context.the<FractureFluid>()),
+        start_time_(context.start_time),
         exchanged_(context.fields.add(
             mesh_, counted_field(context, "exchanged", walls_.wall_flux(),
                                  "Fluid that the matrix has received, with what was not counted before the step"))),
@@ -164,6 +169,20 @@ class WallExchange : public Coupler, public CountsAmounts, public RestsTogether 
     if (fluid_) modes.tie(fluid_->pressure(), fracture_.pressure());
   }
 
+  void note_step(Notes& notes, const StepTime& step) const override {
+    if (!fluid_ || step.start != start_time_) return;
+    const Field *none_of = &fracture_.pressure(), *other = &fluid_->pressure();
+    if (largest(*none_of) > 0) std::swap(none_of, other);
+    constexpr double worth_a_note = 1e5;  // Pa, that of the atmosphere
+    const double difference = largest(*other);
+    if (largest(*none_of) > 0 || difference < worth_a_note) return;
+    notes.add(
+        name() + ": a start without pressure",
+        fmt::format("{} starts at 0 Pa, and {} at up to {:.3g} Pa (fluid rushes between rock and fractures in the "
+                    "first step) give an 'initial_pressure' to both, unless that is meant",
+                    none_of->name(), other->name(), difference));
+  }
+
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     for (const Component* rock : components) {
       const auto* walls = dynamic_cast<const MatrixWalls*>(rock);
@@ -181,6 +200,11 @@ class WallExchange : public Coupler, public CountsAmounts, public RestsTogether 
   }
 
  private:
+  /// The largest size of an accepted value.
+  static double largest(const Field& pressure) {
+    return parallel::max(pressure.size() > 0 ? pressure.accepted().lpNorm<Eigen::Infinity>() : 0.0);
+  }
+
   static double power_of_two_near(double share) {
     int exponent = 0;
     const double mantissa = std::frexp(share, &exponent);  // 0 or from 1/2 to 1
@@ -202,6 +226,7 @@ class WallExchange : public Coupler, public CountsAmounts, public RestsTogether 
   MatrixWalls& walls_;
   MatrixFluid* fluid_;
   FractureFluid& fracture_;
+  double start_time_;           ///< s
   Field& exchanged_;            ///< through each wall since the start, m^2
   Field& counted_;              ///< the same, as the fracture has counted it, m^2
   SparseMatrix to_walls_;       ///< walls × fracture cells

@@ -1,4 +1,5 @@
 // The three types of contact, which differ in what multiplies the gap and the slip (Multiplier), and their parameters.
+#include "components/capabilities/usual_ranges.hpp"
 #include "components/contact/options.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -14,6 +15,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .required = true,
              .material = true,
              .in_time = true});
+  usually(spec, "friction", usual_friction());
   spec.data("dilation_angle", dilation_angle,
             {.unit = "rad",
              .range = between(0, 1.5),
@@ -21,6 +23,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .source = "psi below the paper's Eq. 2",
              .material = true,
              .in_time = true});
+  usually(spec, "dilation_angle", usual_dilation_angle());
   spec.quantity("dilation_limit", dilation_limit,
                 {.unit = "m",
                  .range = non_negative(),
@@ -31,10 +34,12 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                  .range = non_negative(),
                  .doc = "Shear traction that walls in contact hold without pressure, |f_t| <= cohesion - friction f_n. "
                         "Open walls hold nothing, unless `weakening` says how it is lost."});
+  usually(spec, "cohesion", usual_strength());
   spec.quantity("tensile_strength", weakening.tensile_strength,
                 {.unit = "Pa",
                  .range = non_negative(),
                  .doc = "Normal traction at which walls part. `weakening` says how it is lost."});
+  usually(spec, "tensile_strength", usual_strength());
   Spec lost("weakening", "How walls lose strength: linearly over a path, for good.");
   lost.quantity("distance", weakening.distance,
                 {.unit = "m",

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "components/capabilities/cold.hpp"
+#include "components/capabilities/usual_ranges.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/invariants.hpp"
@@ -31,18 +32,21 @@ Spec Options::spec() {
              .doc = "Thickness of what stores and conducts heat at the start: the initial aperture of the flow.",
              .required = true,
              .fixed = "what enters later brings its own heat capacity"});
+  usually(spec, "aperture", usual_aperture());
   spec.data("conductivity", conductivity,
             {.unit = "W/(m*K)",
              .range = positive(),
              .doc = "Thermal conductivity of what fills the fracture (water: 0.6 W/(m*K)).",
              .required = true,
              .fixed = "the fluxes are discretized once"});
+  usually(spec, "conductivity", usual_conductivity());
   spec.data("heat_capacity", heat_capacity,
             {.unit = "J/(m^3*K)",
              .range = positive(),
              .doc = "Heat capacity per volume of what fills the fracture (water: 4.2e6 J/(m^3*K)).",
              .required = true,
              .fixed = "heat is counted by changes of the temperature"});
+  usually(spec, "heat_capacity", usual_fluid_heat_capacity());
   spec.data("initial_temperature", initial_temperature,
             {.unit = "K", .doc = "Temperature at the start.", .fixed = "it is what the run starts from"});
   static Data example;

@@ -1,5 +1,7 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 
+#include "components/capabilities/usual_ranges.hpp"
+
 namespace sprekk::matrix_flow {
 
 Spec Options::spec(const std::string& type, const std::string& doc) {
@@ -13,6 +15,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                .required = true,
                .material = true,
                .in_time = true});
+  usually(spec, "permeability", usual_permeability());
   spec.data("viscosity", viscosity,
             {.unit = "Pa*s",
              .range = positive(),
@@ -21,6 +24,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .required = true,
              .material = true,
              .in_time = true});
+  usually(spec, "viscosity", usual_viscosity());
   spec.data("storage", storage,
             {.unit = "1/Pa",
              .range = non_negative(),
@@ -28,9 +32,11 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                     "compressibility of the grains when the rock is poroelastic.",
              .source = "M below the paper's Eq. 7",
              .in_time = true});
+  usually(spec, "storage", usual_storage());
   spec.data(
       "porosity", porosity,
       {.range = between(0, 1), .doc = "Porosity.", .source = "the paper's Table 1", .material = true, .in_time = true});
+  usually(spec, "porosity", usual_porosity());
   spec.data("fluid_compressibility", fluid_compressibility,
             {.unit = "1/Pa",
              .range = between(0, 100),
@@ -38,6 +44,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .source = "the paper's Table 1",
              .material = true,
              .in_time = true});
+  usually(spec, "fluid_compressibility", usual_compressibility());
   spec.vector("gravity", gravity,
               {.unit = "m/s^2",
                .doc = "Acceleration of gravity.",
@@ -48,6 +55,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                  .range = non_negative(),
                  .doc = "Density of the fluid; matters with gravity only.",
                  .material = true});
+  usually(spec, "fluid_density", usual_fluid_density());
   spec.data("initial_pressure", initial_pressure,
             {.unit = "Pa", .doc = "Pressure at the start.", .fixed = "it is what the run starts from"});
   spec.data("source", source,

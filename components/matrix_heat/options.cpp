@@ -1,5 +1,7 @@
 #include "components/matrix_heat/matrix_heat.hpp"
 
+#include "components/capabilities/usual_ranges.hpp"
+
 namespace sprekk::matrix_heat {
 namespace {
 
@@ -29,6 +31,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                .required = true,
                .material = true,
                .fixed = "the fluxes are discretized once"});
+  usually(spec, "conductivity", usual_conductivity());
   spec.data("heat_capacity", heat_capacity,
             {.unit = "J/(m^3*K)",
              .range = positive(),
@@ -36,6 +39,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .required = true,
              .material = true,
              .fixed = "heat is counted by changes of the temperature"});
+  usually(spec, "heat_capacity", usual_heat_capacity());
   spec.data("initial_temperature", initial_temperature,
             {.unit = "K", .doc = "Temperature at the start.", .fixed = "it is what the run starts from"});
   spec.data("source", source,

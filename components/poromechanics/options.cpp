@@ -1,5 +1,7 @@
 #include "components/poromechanics/options.hpp"
 
+#include "components/capabilities/usual_ranges.hpp"
+
 #include <algorithm>
 
 namespace sprekk::poromechanics {
@@ -154,12 +156,14 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .source = "the paper's Table 1",
              .material = true,
              .in_time = true});
+  usually(spec, "young_modulus", usual_young_modulus());
   spec.data("poisson_ratio", poisson_ratio,
             {.range = strictly_between(-1, 0.5),
              .doc = "Poisson's ratio of the drained rock.",
              .source = "the paper's Table 1",
              .material = true,
              .in_time = true});
+  usually(spec, "poisson_ratio", usual_poisson_ratio());
   Spec tensor("stiffness", "Plane-strain stiffness of an anisotropic rock, instead of the two moduli.");
   const auto entry = [&](const char* name, Data& target, bool required) {
     tensor.data(name, target,
@@ -180,12 +184,14 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .range = positive(),
              .doc = "Drained bulk modulus of an anisotropic rock, where a coupler asks for it.",
              .in_time = true});
+  usually(spec, "bulk_modulus", usual_young_modulus());
   spec.data("rock_density", rock_density,
             {.unit = "kg/m^3",
              .range = non_negative(),
              .doc = "Density of the saturated rock; matters with gravity only.",
              .material = true,
              .in_time = true});
+  usually(spec, "rock_density", usual_rock_density());
   spec.vector("gravity", gravity,
               {.unit = "m/s^2",
                .doc = "Acceleration of gravity.",

@@ -1,5 +1,7 @@
 #include "couplers/heat_advection/options.hpp"
 
+#include "components/capabilities/usual_ranges.hpp"
+
 namespace sprekk::couplers {
 
 Spec HeatAdvectionOptions::spec() {
@@ -13,6 +15,7 @@ Spec HeatAdvectionOptions::spec() {
                  .doc = "Heat capacity of the fluid per volume (water: 4.2e6 J/(m^3*K)).",
                  .required = true,
                  .material = true});
+  usually(spec, "fluid_heat_capacity", usual_fluid_heat_capacity());
   static Injected example;
   const auto injected_spec = [](Injected& at) {
     Spec inner("injected fluid", "The fluid that a well, an injection or a prescribed pressure lets in.");

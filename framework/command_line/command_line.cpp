@@ -19,7 +19,7 @@
 #include "framework/command_line/scene_arguments.hpp"
 #include "framework/command_line/schemes_command.hpp"
 #include "framework/command_line/sweep_command.hpp"
-#include "framework/config/resolved_yaml.hpp"
+#include "framework/config/describe/resolved_yaml.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/output/activity.hpp"
@@ -125,7 +125,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
 
   SceneArguments scene;
   RunOptions run;
-  std::string folder, checkpoint, explained, reference_folder, picture, reported, schema_of = "scene", shell;
+  std::string folder, checkpoint, reference_folder, picture, reported, schema_of = "scene", shell;
 
   CLI::App* run_command = app.add_subcommand("run", "Runs a scene");
   scene.add_to(*run_command);
@@ -160,9 +160,10 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
       ->add_option("-o,--output", picture, "A .dot or .svg file; without it the graph is printed in the dot language")
       ->type_name("PICTURE");
   CLI::App* list_command = app.add_subcommand("list", "Lists what exists");
-  CLI::App* explain_command =
-      app.add_subcommand("explain", "Explains a type, a step of the schedule or a section of a scene");
-  explain_command->add_option("name", explained, "As 'sprekk list' writes it, for example grow")
+  CLI::App* explain_command = app.add_subcommand(
+      "explain", "Explains types, steps of the schedule, sections of a scene, parameters, laws and accelerators");
+  std::vector<std::string> explained;
+  explain_command->add_option("name", explained, "As 'sprekk list' or a scene writes them, for example grow iterate")
       ->required()
       ->type_name("NAME");
   CLI::App* schema_command = app.add_subcommand("schema", "Prints the JSON schema of scenes, or of studies");
@@ -207,7 +208,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
     for (const std::string& file : plugins) load_plugin_of_user(file, {"--plugin"});
     for (const std::string& folder : plugin_folders) trust_plugins_in(folder, {"--plugins"});
     if (*list_command) print_list(std::cout);
-    if (*explain_command) print_explanation(explained, std::cout);
+    if (*explain_command) print_explanations(explained, std::cout);
     if (*schema_command) schema_of == "study" ? print_study_schema(std::cout) : print_schema(std::cout);
     if (*manual_command) std::cout << manual_page(declared_command(app), purpose.summary, build_info().version);
     if (*completion_command)

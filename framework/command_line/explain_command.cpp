@@ -1,11 +1,17 @@
 #include "framework/command_line/explain_command.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "framework/config/inner_path.hpp"
+#include "framework/config/node_paths.hpp"
+#include "framework/config/describe/parameter_text.hpp"
+#include "framework/config/unknown_key.hpp"
 #include "framework/scene/registry.hpp"
 #include "framework/scene/scene.hpp"
 #include "framework/schedule/schedule_context.hpp"
@@ -67,16 +73,56 @@ void print_list(std::ostream& out) {
   }
 }
 
-void print_explanation(const std::string& name, std::ostream& out) {
+namespace {
+
+/// What a name stands for inside of a spec: its parameters and the values of choices (laws, accelerators).
+void add_inside(const Spec& spec, const std::string& path, const std::string& name, const std::string& whole,
+                std::string& text) {
+  for (const Parameter& parameter : spec.parameters()) {
+    if (parameter.name == name)
+      text += fmt::format("{}, in {}\n{}", joined_path(path, name), whole, explain(parameter));
+    for (const auto& [value, doc] : parameter.choices)
+      if (value == name)
+        text += fmt::format("{}: {}, in {}\n  {}\n", joined_path(path, parameter.name), value, whole, doc);
+    if (parameter.inner) add_inside(*parameter.inner, inner_path(path, parameter), name, whole, text);
+  }
+}
+
+void add_names(const Spec& spec, std::vector<std::string>& names) {
+  for (const Parameter& parameter : spec.parameters()) {
+    names.push_back(parameter.name);
+    for (const auto& [value, doc] : parameter.choices) names.push_back(value);
+    if (parameter.inner) add_names(*parameter.inner, names);
+  }
+}
+
+std::string explanation(const std::string& name) {
+  const std::vector<Explained> all = everything();
+  for (const Explained& item : all)
+    if (item.name == name) return explain(item.spec);
+  std::string text;
   std::vector<std::string> names;
-  for (const Explained& item : everything()) {
-    if (item.name == name) {
-      out << explain(item.spec);
-      return;
-    }
+  for (const Explained& item : all) {
+    add_inside(item.spec, "", name, item.name, text);
     names.push_back(item.name);
   }
-  throw unknown_name({"sprekk explain", 0, 0}, "name", name, names);
+  if (!text.empty()) return text;
+  // Names of parameters are suggested where no type is near, and are too many to be listed.
+  const std::string advice = name_advice(name, names, "");
+  std::vector<std::string> inner;
+  for (const Explained& item : all) add_names(item.spec, inner);
+  std::ranges::sort(inner);
+  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
+  throw InputError({"sprekk explain"}, "unknown name " + quoted(name), "it is not one of: " + listed(names),
+                   advice.empty() ? name_advice(name, inner, "") : advice);
+}
+
+}  // namespace
+
+void print_explanations(const std::vector<std::string>& names, std::ostream& out) {
+  std::vector<std::string> texts;
+  for (const std::string& name : names) texts.push_back(explanation(name));
+  for (std::size_t i = 0; i < texts.size(); ++i) out << (i == 0 ? "" : "\n") << texts[i];
 }
 
 void print_schema(std::ostream& out) {

@@ -4,13 +4,14 @@
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace sprekk {
 
 void print_list(std::ostream& out);  ///< the names of all types and sections, by kind
-/// Prints all parameters of a type. Throws InputError for a name that is neither a type, nor a step of the schedule,
-/// nor a section of a scene.
-void print_explanation(const std::string& name, std::ostream& out);
+/// Prints all parameters of types, steps of the schedule and sections of a scene; of other names the parameters, laws
+/// and accelerators that are called so. Throws InputError for a name that is none of them.
+void print_explanations(const std::vector<std::string>& names, std::ostream& out);
 void print_schema(std::ostream& out);        ///< of scenes
 void print_study_schema(std::ostream& out);  ///< of the files of studies
 /// Writes one Markdown page a type into a folder.

@@ -12,10 +12,11 @@ struct CsvRow {
   std::vector<std::string> cells;
 };
 
-/// A heading "name" or "name[unit]".
+/// A heading "name", or one with a unit: "name[unit]", "name (unit)", "name {unit}", "name / unit".
 struct CsvHeading {
   std::string name;
-  std::string unit;  ///< "" for none
+  std::string unit;   ///< as it is written, it may be none; "" without one
+  std::string whole;  ///< as it is written
 };
 
 /// Headings are the first row, if none of its cells is a number; else there are none.
@@ -27,6 +28,10 @@ struct CsvRows {
 /// The rows of comma-separated cells without the white space and the quotes around them; empty lines and lines that
 /// begin with '#' are skipped.
 CsvRows split_csv(const std::string& content);
+
+/// The factor to SI units of a column whose quantity has the SI unit `needed`. Throws InputError where the heading has
+/// another unit, or something that is none. `file` is for messages.
+double heading_scale(const CsvHeading& heading, const std::string& needed, const std::string& file);
 
 /// Refuses two headings of one name, and a row that holds more than there are columns. `file` is for messages.
 void require_table(const CsvRows& csv, const std::string& file);

@@ -7,6 +7,7 @@
 #include "framework/config/data_reader.hpp"
 #include "framework/config/expression.hpp"
 #include "framework/config/quantity_scale.hpp"
+#include "framework/config/unknown_key.hpp"
 
 namespace sprekk {
 namespace {
@@ -78,7 +79,7 @@ std::vector<const Node*> values_by_name(const Node& node, const DataRequest& req
     const bool is_known = entry.key == "default" || std::ranges::any_of(names, [&](const std::string& name) {
                             return stands_for(entry.key, name);
                           });
-    if (!is_known) throw unknown_name(entry.origin, places.one, entry.key, names);
+    if (!is_known) throw unknown_key(entry.origin, places.one, entry.key, names);
   }
   if (names.empty())
     throw InputError(map.origin, "the scene has no " + places.key, "", "give one value without '" + places.key + "'");

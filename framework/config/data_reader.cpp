@@ -9,6 +9,7 @@
 #include "framework/config/expression.hpp"
 #include "framework/config/table.hpp"
 #include "framework/config/units.hpp"
+#include "framework/config/unknown_key.hpp"
 
 namespace sprekk {
 namespace {
@@ -147,10 +148,10 @@ Data read_tabulated(const Node& node, const DataRequest& request) {
 /// Reads any form of a datum. Its range is not checked yet, except where messages on its parts say more.
 Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_scalar()) return parse_data(node.scalar, request.about.unit, node.origin, request.name);
-  const std::string forms =
+  const std::string forms_text =
       "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) + ", an expression of x, y and t, " +
       "{regions: …}, {fractures: …}, {column: …}, {table: …}, {run: …} or {value: , from: , to: }";
-  if (node.is_null()) throw wrong_kind(node, request.name, forms);
+  if (node.is_null()) throw wrong_kind(node, request.name, forms_text);
   if (request.about.constant_only) throw wrong_kind(node, request.name, "one number");
   if (has(node, "regions")) {
     return by_region(read_by_region<Data>(node, request, [&](const Node& value) { return read_data(value, request); }));
@@ -159,12 +160,17 @@ Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_list() || has(node, "value")) return read_windows(node, request);
   if (has(node, "table")) return read_tabulated(node, request);
   if (has(node, "column")) return read_fracture_column(node, request);
-  if (const DataForms::value_type* form = other_form(node)) return form->second(node, request);
-  const std::string key = node.entries.empty() ? "" : node.entries.front().key;
-  if (key.empty()) throw wrong_kind(node, request.name, forms);
+  if (const auto further = data_forms().find(form_of(node)); further != data_forms().end())
+    return further->second(node, request);
+  if (node.entries.empty()) throw wrong_kind(node, request.name, forms_text);
+  throw unknown_form(node, request);
+}
+
+/// The keys that tell the form of a datum.
+std::vector<std::string> forms() {
   std::vector<std::string> keys = {"regions", "fractures", "column", "table", "value"};
   for (const auto& [form, read] : data_forms()) keys.push_back(form);
-  throw unknown_name(node.entries.front().origin, "key of " + quoted(request.name) + ":", key, keys);
+  return keys;
 }
 
 }  // namespace
@@ -174,11 +180,63 @@ DataForms& data_forms() {
   return forms;
 }
 
-const DataForms::value_type* other_form(const Node& node) {
-  for (const DataForms::value_type& form : data_forms())
-    if (has(node, form.first)) return &form;
-  return nullptr;
+std::string form_of(const Node& map) {
+  for (const std::string& form : forms())
+    if (has(map, form)) return form;
+  return "";
 }
+
+std::vector<std::pair<std::string, std::string>> data_keys() {
+  const std::pair<std::string, std::vector<std::string>> known[] = {
+      {"{value: …, from: …, to: …}", {"value", "from", "to"}},
+      {"{table: …, column: …, of: …, unit: …}", {"table", "column", "of", "unit"}},
+      {"{regions: {NAME: …, default: …}}", {"regions", "default"}},
+      {"{fractures: {NAME: …, default: …}}", {"fractures"}},
+      {"{xx: …, yy: …, xy: …}", {"xx", "yy", "xy"}},
+      {"{along: …, across: …, angle: …}", {"along", "across", "angle"}}};
+  std::vector<std::pair<std::string, std::string>> keys;
+  for (const auto& [form, names] : known)
+    for (const std::string& name : names) keys.emplace_back(name, form);
+  for (const auto& [form, read] : data_forms()) keys.emplace_back(form, "{" + form + ": …}");
+  return keys;
+}
+
+InputError unknown_form(const Node& map, const DataRequest& request, const std::vector<std::string>& further) {
+  std::vector<std::string> keys = further;
+  std::ranges::copy(forms(), std::back_inserter(keys));
+  const Node::Entry& first = map.entries.front();
+  return unknown_key(first.origin, "key of " + quoted(request.name) + ":", first.key, keys);
+}
+
+namespace {
+
+/// The bound that a value of `data` has left by round-off only, if there is one. What round-off is follows from the
+/// bounds, and from the values of `data` at other places and times.
+std::optional<double> left_by_roundoff(double value, const Range& range, const Data& data, const Place& place) {
+  constexpr double roundoff = 1e-12;
+  const bool is_below = value <= range.low;
+  const double bound = is_below ? range.low : range.high;
+  if (!std::isfinite(value) || !std::isfinite(bound) || !(is_below ? range.low_allowed : range.high_allowed))
+    return std::nullopt;
+  double scale = std::abs(bound);
+  if (std::isfinite(range.high - range.low)) scale = std::max(scale, range.high - range.low);
+  for (const double share : {0.0, 0.5, 2.0})
+    for (const bool in_time : {false, true}) {
+      Place other = place;
+      if (in_time)
+        other.t *= share;
+      else
+        other.x *= share;
+      try {
+        scale = std::max(scale, std::abs(data.at(other)));
+      } catch (const DataError&) {
+        // It has no value there.
+      }
+    }
+  return std::abs(value - bound) <= roundoff * scale ? std::optional(bound) : std::nullopt;
+}
+
+}  // namespace
 
 Data within_range(Data data, const Origin& where, const DataRequest& request) {
   const Range range = request.about.range;
@@ -187,6 +245,7 @@ Data within_range(Data data, const Origin& where, const DataRequest& request) {
   if (data.is_constant()) {
     const double value = data.at({});
     if (range.contains(value)) return data;
+    if (const std::optional<double> bound = left_by_roundoff(value, range, data, {})) return *bound;
     throw InputError(
         where,
         fmt::format("{} is {}, out of range", quoted(request.name), quoted(quantity_text(value, request.about.unit))),
@@ -199,6 +258,7 @@ Data within_range(Data data, const Origin& where, const DataRequest& request) {
   auto checked = [data = std::move(data), range, where, limits, name = request.name](const Place& place) {
     const double value = data.at(place);
     if (range.contains(value)) return value;
+    if (const std::optional<double> bound = left_by_roundoff(value, range, data, place)) return *bound;
     throw DataError(
         fmt::format("{}: {} is {} at {} ({})", where.text(), quoted(name), value, place_text(place), limits));
   };

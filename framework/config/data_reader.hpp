@@ -53,7 +53,8 @@ const Node& required_entry(const Node& map, const std::string& key, const DataRe
 double read_number(const Node& node, const std::string& unit, const Range& range, const std::string& name);
 const std::string& read_scalar(const Node& node, const std::string& name);
 /// What to throw for a node that is no `needed`.
-InputError wrong_kind(const Node& node, const std::string& name, const std::string& needed);
+InputError wrong_kind(const Node& node, const std::string& name, const std::string& needed,
+                      const std::string& suggestion = "");
 
 /// What values are given by: the word for one, "in" or "on" it, and the key of the map from names to values.
 struct NamedPlaces {
@@ -65,8 +66,12 @@ struct NamedPlaces {
 std::vector<const Node*> values_by_name(const Node& node, const DataRequest& request, const NamedPlaces& places,
                                         const std::vector<std::string>& names);
 
-/// The reader of the form that this map has, or nullptr.
-const DataForms::value_type* other_form(const Node& node);
+/// The key that tells the form of a datum that is a map, or "".
+std::string form_of(const Node& map);
+/// Keys of data that are maps, each with the form in which it stands: "{value: …, from: …, to: …}".
+std::vector<std::pair<std::string, std::string>> data_keys();
+/// What to throw for a map that has no such key; `further`: keys that it may have besides.
+InputError unknown_form(const Node& map, const DataRequest& request, const std::vector<std::string>& further = {});
 
 /// Whether the map has the key `key`, so that its form is known.
 inline bool has(const Node& node, const std::string& key) { return node.is_map() && node.find(key) != nullptr; }

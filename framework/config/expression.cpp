@@ -49,12 +49,13 @@ void define_constants(mu::Parser& parser) {
   for (const auto& [name, value] : unit_constants()) parser.DefineConst(name, value);
 }
 
+/// The names that messages suggest.
 std::vector<std::string> known_names(const mu::Parser& parser) {
-  std::vector<std::string> names = {"x", "y", "t"};
+  std::vector<std::string> names = {"x", "y", "t", "pi", "e"};
   for (const auto& [name, unused] : parser.GetFunDef()) names.push_back(name);
-  for (const auto& [name, unused] : parser.GetConst()) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
+  for (const char* unit : {"m",   "mm",  "cm",  "km",  "kg", "s", "h", "day", "year", "Pa",
+                           "kPa", "MPa", "GPa", "bar", "N",  "J", "K", "deg", "rad",  "l"})
+    names.push_back(unit);
   return names;
 }
 
@@ -67,6 +68,13 @@ bool has_assignment(const std::string& text) {
     if (!before && !after) return true;
   }
   return false;
+}
+
+/// The factor of a quantity of this dimension in units of m, kg, s, K and rad that are smaller by the factors `sizes`.
+double in_sizes(const Dimension& dimension, const std::array<double, 5>& sizes) {
+  double factor = 1;
+  for (std::size_t i = 0; i < sizes.size(); ++i) factor *= std::pow(sizes[i], dimension.exponents[i]);
+  return factor;
 }
 
 /// A formula and its parser. The parser holds the addresses of the variables, so the object must not move, and one
@@ -101,15 +109,10 @@ class Expression {
     return std::any_of(unit_constants().begin(), unit_constants().end(),
                        [this](const auto& unit) { return mentions(unit.first); });
   }
-  /// The value in units of m, kg, s, K and rad that are smaller by the factors `sizes`.
-  double in_units(const std::array<double, 5>& sizes) {
-    for (const auto& [name, value] : unit_constants()) {
-      const Dimension dimension = parse_unit(name).dimension;
-      double factor = 1;
-      for (std::size_t i = 0; i < sizes.size(); ++i) factor *= std::pow(sizes[i], dimension.exponents[i]);
-      parser_.DefineConst(name, value * factor);
-    }
-    return parser_.Eval();
+  /// Gives m, kg, s, K and rad other sizes: those of before over `sizes`.
+  void resize_units(const std::array<double, 5>& sizes) {
+    for (const auto& [name, value] : unit_constants())
+      parser_.DefineConst(name, value * in_sizes(parse_unit(name).dimension, sizes));
   }
 
   double unchecked(const Place& place) {
@@ -185,21 +188,58 @@ Data parse_expression(const std::string& text, double scale, const Origin& where
   return value;
 }
 
+namespace {
+
+/// Places and times at which dimensions are tested: none that a condition in an expression is likely to name.
+std::vector<Place> test_places() {
+  constexpr std::array times = {0.7318, 917.3, 5.2397e4, 8.7131e5, 1.1873e8};
+  constexpr std::array lengths = {0.3719, -17.193, 1193.7};
+  std::vector<Place> places;
+  for (const double t : times)
+    for (const double x : lengths) places.push_back({Point(x, lengths[places.size() % 2] - x), 0, t});
+  return places;
+}
+
+/// An expression before and after its units have got other sizes.
+struct Resized {
+  Expression before, after;
+  std::array<double, 5> sizes;
+
+  /// Whether its values change as those of a quantity with this dimension, with x, y and t as plain numbers or with
+  /// units.
+  bool has_dimension(const Dimension& dimension, bool has_length, bool has_time) {
+    constexpr double rounding = 1e-9;
+    for (const Place& place : test_places()) {
+      Place resized = place;
+      if (has_length) resized.x *= sizes[0];
+      if (has_time) resized.t *= sizes[2];
+      const double expected = in_sizes(dimension, sizes) * before.unchecked(place), value = after.unchecked(resized);
+      if (!std::isfinite(expected) || !std::isfinite(value)) continue;
+      if (std::abs(value - expected) > rounding * std::max(std::abs(value), std::abs(expected))) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
 LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, const Origin& where) {
-  Expression expression(text, 1, where);
-  const LackOfUnit lack = expression.mentions_unit() ? LackOfUnit::of_a_term : LackOfUnit::any;
-  if (expression.uses_time() || expression.uses_space()) return LackOfUnit::none;
-  const double value = expression.unchecked({});
-  // Sizes such that no two products of small powers of them are equal. Angles count as numbers, unless the dimension
-  // has an angle.
-  std::array<double, 5> sizes = {1.0137, 1.0171, 1.0193, 1.0229, 1};
-  if (dimension.exponents[4] != 0) sizes[4] = 1.0271;
-  double factor = 1;
-  for (std::size_t i = 0; i < sizes.size(); ++i) factor *= std::pow(sizes[i], dimension.exponents[i]);
-  constexpr double rounding = 1e-9;
-  const double changed = expression.in_units(sizes);
-  const bool differs = std::abs(changed - factor * value) > rounding * std::max(std::abs(changed), std::abs(value));
-  return differs ? lack : LackOfUnit::none;
+  const bool is_length = dimension == parse_unit("m").dimension;
+  // Sizes of which no two products of powers are equal, near 1 so that conditions in the expression still hold. Angles
+  // count as numbers unless the dimension has one, and so do lengths where it is a length.
+  std::array<double, 5> sizes;
+  const double squares[] = {2, 3, 5, 7, 11};
+  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::exp(1e-2 * std::sqrt(squares[i]));
+  if (dimension.exponents[4] == 0) sizes[4] = 1;
+  if (is_length) sizes[0] = 1;
+  Resized expression{{text, 1, where}, {text, 1, where}, sizes};
+  const bool has_units = expression.before.mentions_unit();
+  if (!has_units && (is_length || dimension == Dimension{})) return LackOfUnit::none;
+  expression.after.resize_units(sizes);
+  for (const bool has_length : {false, true})
+    for (const bool has_time : {false, true})
+      if (expression.has_dimension(dimension, has_length, has_time)) return LackOfUnit::none;
+  return has_units ? LackOfUnit::of_a_term : LackOfUnit::any;
 }
 
 }  // namespace sprekk

@@ -3,6 +3,7 @@
 #include <cctype>
 
 #include "framework/config/input_error.hpp"
+#include "framework/config/unknown_key.hpp"
 
 namespace sprekk {
 namespace {
@@ -42,6 +43,25 @@ std::string only_name_that_begins_with(const std::string& word, const std::vecto
   return result;
 }
 
+std::vector<std::string> names_with_part(const std::string& word, const std::vector<std::string>& names) {
+  constexpr std::size_t shortest = 3, most = 3;
+  const auto has_part = [](const std::string& whole, const std::string& part) {
+    const auto ends = [&whole](std::size_t at) { return at == whole.size() || whole[at] == '_' || whole[at] == '/'; };
+    for (std::size_t at = whole.find(part); at != std::string::npos; at = whole.find(part, at + 1))
+      if ((at == 0 || ends(at - 1)) && ends(at + part.size())) return true;
+    return false;
+  };
+  std::vector<std::string> found;
+  const std::string lower_word = lower_case(word);
+  for (const std::string& name : names) {
+    const std::string lower_name = lower_case(name);
+    if (std::min(word.size(), name.size()) >= shortest &&
+        (has_part(lower_name, lower_word) || has_part(lower_word, lower_name)))
+      found.push_back(name);
+  }
+  return found.size() <= most ? found : std::vector<std::string>();
+}
+
 }  // namespace
 
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names) {
@@ -71,9 +91,20 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
 InputError unknown_name(const Origin& where, const std::string& what, const std::string& word,
                         const std::vector<std::string>& allowed) {
   const std::string why = allowed.empty() ? "there is none" : "it is not one of: " + listed(allowed);
-  const std::string nearest = nearest_name(word, allowed);
-  return InputError(where, "unknown " + what + " " + quoted(word), why,
-                    nearest.empty() ? "" : "did you mean " + quoted(nearest) + "?");
+  return InputError(where, "unknown " + what + " " + quoted(word), why, name_advice(word, allowed, ""));
+}
+
+std::string name_advice(const std::string& word, const std::vector<std::string>& known, const std::string& belongs) {
+  std::vector<std::string> meant;
+  if (const std::string nearest = nearest_name(word, known); !nearest.empty())
+    meant.push_back(nearest);
+  else
+    meant = names_with_part(word, known);
+  std::string text;
+  for (std::size_t i = 0; i < meant.size(); ++i)
+    text += (i == 0 ? "did you mean " : i + 1 == meant.size() ? " or " : ", ") + sprekk::quoted(meant[i]);
+  if (!meant.empty()) text += "?";
+  return text + (text.empty() || belongs.empty() ? "" : " ") + belongs;
 }
 
 }  // namespace sprekk

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "framework/config/units.hpp"
+#include "framework/config/unknown_key.hpp"
 
 namespace sprekk {
 namespace {
@@ -16,17 +17,19 @@ std::string found(const Node& node) {
 
 }  // namespace
 
-InputError wrong_kind(const Node& node, const std::string& name, const std::string& needed) {
-  if (node.is_null()) return InputError(node.origin, quoted(name) + " has no value", "needed is " + needed);
-  return InputError(node.origin, quoted(name) + " is " + found(node), "needed is " + needed);
+InputError wrong_kind(const Node& node, const std::string& name, const std::string& needed,
+                      const std::string& suggestion) {
+  return InputError(node.origin, quoted(name) + (node.is_null() ? " has no value" : " is " + found(node)),
+                    "needed is " + needed, suggestion);
 }
 
 void require_known_keys(const Node& map, const std::vector<std::string>& allowed, const DataRequest& request) {
-  for (const Node::Entry& entry : map.entries) {
-    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end()) {
-      throw unknown_name(entry.origin, "key of " + quoted(request.name) + ":", entry.key, allowed);
-    }
-  }
+  std::vector<std::string> problems;
+  for (const Node::Entry& entry : map.entries)
+    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end())
+      problems.emplace_back(
+          unknown_key(entry.origin, "key of " + quoted(request.name) + ":", entry.key, allowed).what());
+  if (!problems.empty()) throw InputError(problems);
 }
 
 const Node& required_entry(const Node& map, const std::string& key, const DataRequest& request) {

@@ -28,6 +28,16 @@ std::optional<LeadingNumber> leading_number(const std::string& text) {
   return number;
 }
 
+std::string with_exponent_e(const std::string& text) {
+  const auto number = leading_number(text);
+  if (!number || number->length + 1 >= text.size() || std::tolower(text[number->length]) != 'd') return "";
+  const std::size_t sign = number->length + 1, digit = text[sign] == '-' || text[sign] == '+' ? sign + 1 : sign;
+  if (digit >= text.size() || std::isdigit(static_cast<unsigned char>(text[digit])) == 0) return "";
+  std::string other = text;
+  other[number->length] = 'e';
+  return other;
+}
+
 std::string trimmed(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string::npos) return "";

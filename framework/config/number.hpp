@@ -15,6 +15,9 @@ struct LeadingNumber {
 };
 std::optional<LeadingNumber> leading_number(const std::string& text);  ///< none where the text begins otherwise
 
+/// "1e-17" for "1d-17", as Fortran writes it; "" for other texts.
+std::string with_exponent_e(const std::string& text);
+
 std::string trimmed(const std::string& text);  ///< without blanks at both ends
 
 }  // namespace sprekk

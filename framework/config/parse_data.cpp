@@ -1,4 +1,5 @@
 // Distinguishes quantities from expressions, and separates expressions from the unit behind them.
+#include <algorithm>
 #include <cctype>
 
 #include "framework/config/expression.hpp"
@@ -55,36 +56,67 @@ Split split_off_unit(const std::string& text) {
   return split;
 }
 
-/// Whether the text is a number with at most a unit behind it: "40 GPa" and "5e-3", but not "2*x".
+/// Whether the text is a number with at most a unit behind it: "40 GPa" and "5e-3", but not "2*x" or "5 MPa + 2 bar".
 bool is_quantity(const std::string& text) {
   const std::optional<LeadingNumber> number = leading_number(text);
   if (!number) return false;
-  const std::size_t next = text.find_first_not_of(' ', number->length);
-  if (next == std::string::npos) return true;
-  return std::string("+-*/^<>=!&|?),").find(text[next]) == std::string::npos;
+  const std::string rest = trimmed(text.substr(number->length));
+  if (rest.empty()) return true;
+  const std::string operators = "+-*/^<>=!&|?),";
+  if (operators.find(rest[0]) != std::string::npos) return false;
+  if (is_unit(rest)) return true;
+  const std::string behind = trimmed(rest.substr(unit_length(rest)));
+  return behind.empty() || behind.size() == rest.size() || operators.find(behind[0]) == std::string::npos;
 }
 
-/// Whether a number has a comma where the point belongs: "1,5 mPa*s".
-bool has_decimal_comma(const std::string& text) {
-  const std::optional<LeadingNumber> number = leading_number(text);
-  if (!number || number->length + 1 >= text.size() || text[number->length] != ',') return false;
-  return std::isdigit(static_cast<unsigned char>(text[number->length + 1])) != 0;
+/// The unit in names that an expression knows.
+std::string in_words(std::string unit) {
+  for (const auto& [sign, word] :
+       {std::pair("°", "deg"), std::pair("µ", "u"), std::pair("μ", "u"), std::pair("%", "0.01")})
+    for (std::size_t at = unit.find(sign); at != std::string::npos; at = unit.find(sign, at))
+      unit.replace(at, std::string(sign).size(), word);
+  return unit;
 }
 
-/// Refuses a quantity without a unit; a length is in m then, and a plain number needs none.
-void require_unit(const std::string& expression, const std::string& unit, const Origin& where,
+/// The expression with a product for each number that has a unit behind it: "t < 12 h" becomes "t < (12*h)".
+std::string with_products(const std::string& text) {
+  std::string result;
+  bool in_word = false;
+  for (std::size_t i = 0; i < text.size();) {
+    const bool is_digit = std::isdigit(static_cast<unsigned char>(text[i])) != 0 || text[i] == '.';
+    const std::optional<LeadingNumber> number =
+        is_digit && !in_word ? leading_number(text.substr(i)) : std::optional<LeadingNumber>();
+    if (!number) {
+      in_word = is_operand_byte(text[i]);
+      result += text[i++];
+      continue;
+    }
+    const std::string digits = text.substr(i, number->length), rest = text.substr(i + number->length);
+    const std::size_t spaces = std::min(rest.find_first_not_of(' '), rest.size());
+    const bool begins_unit = spaces < rest.size() && begins_operand(rest[spaces]);
+    const std::size_t unit = begins_unit ? unit_length(rest.substr(spaces)) : 0;
+    result += unit == 0 ? digits : "(" + digits + "*" + in_words(rest.substr(spaces, unit)) + ")";
+    i += number->length + (unit == 0 ? 0 : spaces + unit);
+    in_word = unit == 0;
+  }
+  return result;
+}
+
+/// Refuses an expression that has not the dimension of `unit`, or lacks a unit. `whole`: as it is written.
+void require_unit(const std::string& expression, const std::string& unit, const std::string& whole, const Origin& where,
                   const std::string& name) {
   const Dimension wanted = parse_unit(unit).dimension;
-  if (unit == "m" || wanted == Dimension{}) return;
   const LackOfUnit lack = lack_of_unit(expression, wanted, where);
   if (lack == LackOfUnit::none) return;
-  const std::string whole = quoted(expression) + (name.empty() ? "" : " for " + quoted(name));
-  const std::string needed = "needed is " + wanted.name() + ", in " + unit + " or another unit of it";
+  const std::string what = quoted(whole) + (name.empty() ? "" : " for " + quoted(name));
+  const std::string needed =
+      "needed is " + (unit.empty() ? wanted.name() : wanted.name() + ", in " + unit + " or another unit of it");
   if (lack == LackOfUnit::of_a_term)
-    throw InputError(where, whole + " has another unit, or a term without one", needed,
-                     "multiply each of its terms by its unit");
-  throw InputError(where, whole + " has no unit", needed,
-                   "write " + quoted("(" + expression + ") " + unit) + ", if that is what it is");
+    throw InputError(
+        where, what + " has another unit, or a term without one", needed,
+        unit.empty() ? "divide each quantity by its unit: t/day" : "multiply each of its terms by its unit");
+  throw InputError(where, what + " has no unit", needed,
+                   "write " + quoted("(" + whole + ") " + unit) + ", if that is what it is");
 }
 
 }  // namespace
@@ -92,14 +124,11 @@ void require_unit(const std::string& expression, const std::string& unit, const 
 Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name) {
   const std::string content = trimmed(text);
   if (content.empty()) throw InputError(where, (name.empty() ? "the datum" : quoted(name)) + " is empty");
+  require_plain_number(content, where, name);
   if (is_quantity(content)) return parse_quantity(content, unit, where, name);
-  if (has_decimal_comma(content)) {
-    throw InputError(where, quoted(text) + (name.empty() ? "" : " for " + quoted(name)) + " has a decimal comma", "",
-                     "write decimals with a point");
-  }
-  const Split split = split_off_unit(content);
+  const Split split = split_off_unit(with_products(content));
   if (split.unit.empty()) {
-    require_unit(split.expression, unit, where, name);
+    require_unit(split.expression, unit, content, where, name);
     return parse_expression(split.expression, 1, where);
   }
   const double scale = scale_to_si(split.unit, unit, content, where, name);
@@ -108,6 +137,10 @@ Data parse_data(const std::string& text, const std::string& unit, const Origin& 
                      "it is not clear what the unit " + quoted(split.unit) + " belongs to",
                      "write " + quoted("(" + split.expression + ") " + split.unit) + " or multiply by the unit");
   }
+  if (lack_of_unit(split.expression, {}, where) != LackOfUnit::none)
+    throw InputError(where, quoted(text) + (name.empty() ? "" : " for " + quoted(name)) + " has units twice",
+                     "the unit " + quoted(split.unit) + " behind the expression multiplies those inside",
+                     "keep one of them");
   return parse_expression(split.expression, scale, where);
 }
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "framework/config/data_reader.hpp"
+#include "framework/config/inner_path.hpp"
 #include "framework/config/node_paths.hpp"
 #include "framework/config/unit.hpp"
+#include "framework/config/unknown_key.hpp"
 
 namespace sprekk {
 namespace {
@@ -35,6 +37,18 @@ void require_si_unit(const Spec& spec, const Parameter& parameter) {
 
 bool is_section(const Parameter& parameter) {
   return parameter.kind == "section" || parameter.kind == "named sections" || parameter.kind == "list of sections";
+}
+
+/// The path of the section inside of a map at `path` that has a parameter with this name; "" for none.
+std::string path_inside(const Spec& spec, const std::string& path, const std::string& name) {
+  for (const Parameter& parameter : spec.parameters()) {
+    if (!parameter.inner) continue;
+    const std::string inner = inner_path(path, parameter);
+    if (std::ranges::any_of(parameter.inner->parameters(), [&](const Parameter& known) { return known.name == name; }))
+      return inner;
+    if (const std::string deeper = path_inside(*parameter.inner, inner, name); !deeper.empty()) return deeper;
+  }
+  return "";
 }
 
 }  // namespace
@@ -97,12 +111,14 @@ void Spec::read_unknown_keys(const Node& node, std::vector<std::string>& problem
   names.insert(names.end(), ignored_.begin(), ignored_.end());
   for (const Node::Entry& entry : node.entries) {
     if (contains(names, entry.key)) continue;
-    const std::string nearest = nearest_name(entry.key, names);
+    const std::string nearest = nearest_name(entry.key, names), inside = path_inside(*this, node.path, entry.key);
     if (!nearest.empty()) meant.push_back(nearest);
-    problems.push_back(InputError(entry.origin, "unknown key " + quoted(entry.key) + " " + in_path(node.path),
-                                  names.empty() ? name_ + " has no parameters" : name_ + " has: " + listed(names),
-                                  nearest.empty() ? "" : "did you mean " + quoted(nearest) + "?")
-                           .what());
+    const std::string belongs =
+        inside.empty() ? place_of_key(entry.key) : quoted(entry.key) + " belongs in " + quoted(inside);
+    problems.emplace_back(InputError(entry.origin, "unknown key " + quoted(entry.key) + " " + in_path(node.path),
+                                     names.empty() ? name_ + " has no parameters" : name_ + " has: " + listed(names),
+                                     name_advice(entry.key, names, belongs))
+                              .what());
   }
 }
 

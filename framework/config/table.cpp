@@ -21,7 +21,7 @@ class TableReader {
 
   Table read() {
     CsvRows csv = split_csv(content());
-    if (!csv.rows.empty()) require_table(csv, request_.file);
+    if (!csv.rows.empty() || !csv.headings.empty()) require_table(csv, request_.file);
     rows_ = std::move(csv.rows);
     headings_ = std::move(csv.headings);
     if (rows_.empty() && headings_.empty()) refuse_empty("it has no row of numbers");
@@ -31,7 +31,7 @@ class TableReader {
     const std::size_t column = value_column();
     const double scale =
         request_.unit ? scale_to_si(*request_.unit, request_.needed_unit, *request_.unit, request_.where, request_.name)
-                      : heading_scale(column, request_.needed_unit);
+                      : column_scale(column, request_.needed_unit);
     Table table;
     for (const std::vector<double>& coordinates : coordinates_) table.axes.push_back(sorted(coordinates));
     const std::vector<std::size_t> order = rows_by_place();
@@ -64,7 +64,7 @@ class TableReader {
 
   std::optional<std::size_t> named_column(const std::string& name) const {
     for (std::size_t i = 0; i < headings_.size(); ++i) {
-      if (headings_[i].name == name) return i;
+      if (headings_[i].name == name || headings_[i].whole == name) return i;
     }
     return std::nullopt;
   }
@@ -76,7 +76,7 @@ class TableReader {
       if (!named && request_.of.size() > 1)
         throw unknown_name(request_.where, "variable of the table " + quoted(request_.file) + ":", variable, names());
       const std::size_t column = named.value_or(0);
-      const double scale = heading_scale(column, variable == "t" ? "s" : "m");
+      const double scale = column_scale(column, variable == "t" ? "s" : "m");
       std::vector<double>& coordinates = coordinates_.emplace_back();
       for (const CsvRow& row : rows_) {
         const double value = scale * number(row, column);
@@ -166,10 +166,8 @@ class TableReader {
                      fmt::format("its columns are 1 to {}", columns_));
   }
 
-  double heading_scale(std::size_t column, const std::string& needed_unit) const {
-    if (column >= headings_.size() || headings_[column].unit.empty()) return 1;
-    return scale_to_si(headings_[column].unit, needed_unit, headings_[column].unit, {request_.file, 1},
-                       headings_[column].name);
+  double column_scale(std::size_t column, const std::string& needed_unit) const {
+    return column < headings_.size() ? heading_scale(headings_[column], needed_unit, request_.file) : 1;
   }
 
   double number(const CsvRow& row, std::size_t column) const {

@@ -117,10 +117,8 @@ TensorData read_tensor(const Node& node, const DataRequest& request) {
   if (has(node, "regions")) return read_tensor_by_region(node, request);
   if (has(node, "along") || has(node, "across") || has(node, "angle")) return read_principal(node, request);
   if (has(node, "xx") || has(node, "yy") || has(node, "xy")) return read_components(node, request);
-  const bool is_other_map = node.is_map() && !has(node, "table") && !has(node, "value") && !other_form(node);
-  if (is_other_map) {
-    throw wrong_kind(node, request.name, "one value, {xx: , yy: , xy: }, {along: , across: , angle: } or {regions: …}");
-  }
+  if (node.is_map() && !node.entries.empty() && form_of(node).empty())
+    throw unknown_form(node, request, {"xx", "along"});
   const Data isotropic = read_data(node, request);
   return {isotropic, isotropic, 0};
 }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t longest_unit = 80;
 constexpr double greatest_power = 12;
+const char* const time_variable = "t";  ///< of expressions, where it is no tonne
 
 struct NamedUnit {
   const char* name;
@@ -47,6 +48,29 @@ const std::array<NamedUnit, 24> named_units = {{
     {"D", {1e-7 / 101325, {{2, 0, 0, 0, 0}}}, true},
     {"%", {1e-2, {{0, 0, 0, 0, 0}}}, false},
 }};
+
+/// What other texts call a unit.
+struct Alias {
+  const char* name;
+  const char* unit;
+};
+const std::array<Alias, 16> aliases = {{{"yr", "year"},
+                                        {"yrs", "year"},
+                                        {"a", "year"},
+                                        {"y", "year"},
+                                        {"hr", "h"},
+                                        {"hrs", "h"},
+                                        {"hour", "h"},
+                                        {"hours", "h"},
+                                        {"sec", "s"},
+                                        {"secs", "s"},
+                                        {"seconds", "s"},
+                                        {"minute", "min"},
+                                        {"minutes", "min"},
+                                        {"metre", "m"},
+                                        {"meter", "m"},
+
+                                        {"degrees", "deg"}}};
 
 struct Prefix {
   const char* name;
@@ -90,7 +114,8 @@ Unit unit_of_name(const std::string& name) {
       throw UnitProblem{"unknown unit " + quoted(name),
                         "temperatures are in K, since a unit is a factor and has no zero of its own",
                         "write 353.15 K for 80 degrees Celsius"};
-  const std::string nearest = nearest_name(name, common_names());
+  const auto alias = std::ranges::find_if(aliases, [&](const Alias& other) { return name == other.name; });
+  const std::string nearest = alias == aliases.end() ? nearest_name(name, common_names()) : alias->unit;
   throw UnitProblem{"unknown unit " + quoted(name),
                     "units are m g s min h d day year K rad deg Hz N Pa bar J W P l D %, with prefixes n u m c d k M G",
                     nearest.empty() ? "" : "did you mean " + quoted(nearest) + "?"};
@@ -108,6 +133,21 @@ class UnitParser {
     if (position_ == text_.size()) return unit;
     if (text_[position_] == ')') fail("there is one ')' too many");
     fail("an operator is missing before " + quoted(text_.substr(position_)), "products are written with '*': Pa*s");
+  }
+
+  /// The length of the longest product of units that the text begins with, as expressions have them.
+  std::size_t longest_prefix() {
+    is_in_expression_ = true;
+    std::size_t end = 0;
+    try {
+      do {
+        factor();
+        end = position_;
+      } while (accept('*') || accept('/'));
+    } catch (const UnitProblem&) {
+      // What follows is no unit.
+    }
+    return end;
   }
 
  private:
@@ -154,7 +194,8 @@ class UnitParser {
     const std::size_t begin = position_;
     while (position_ < text_.size() && is_name_byte(text_[position_])) ++position_;
     const std::string name = text_.substr(begin, position_ - begin);
-    if (name == "1") return {};
+    if (name == "1" && !(is_in_expression_ && (begin > 0 || !followed_by('/')))) return {};
+    if (is_in_expression_ && (name == time_variable || followed_by('('))) fail("it is a variable or a function");
     if (name.empty()) fail("a unit is missing at its character " + std::to_string(begin + 1));
     if (std::isdigit(static_cast<unsigned char>(name[0])) != 0) {
       fail("the number " + name + " stands in the unit", "powers are written with '^': m^2, m^(1/2)");
@@ -186,8 +227,14 @@ class UnitParser {
     return value;
   }
 
+  bool followed_by(char next) const {
+    const std::size_t at = text_.find_first_not_of(' ', position_);
+    return at != std::string::npos && text_[at] == next;
+  }
+
   const std::string& text_;
   std::size_t position_ = 0;
+  bool is_in_expression_ = false;
 };
 
 }  // namespace
@@ -213,12 +260,46 @@ Unit parse_unit(const std::string& text) {
   return UnitParser(text).parse();
 }
 
+bool is_unit(const std::string& text) { return have_one_dimension(text, text); }
+
+bool have_one_dimension(const std::string& unit, const std::string& other) {
+  try {
+    return parse_unit(unit).dimension == parse_unit(other).dimension;
+  } catch (const UnitProblem&) {
+    return false;
+  }
+}
+
+std::vector<std::string> units_like(const std::string& unit) {
+  if (unit == "rad") return {"deg"};
+  const std::size_t end =
+      std::ranges::find_if_not(unit, [](unsigned char c) { return std::isalpha(c) != 0; }) - unit.begin();
+  const std::string first = unit.substr(0, end), behind = unit.substr(end);
+  std::vector<std::string> like;
+  for (const NamedUnit& named : named_units) {
+    const std::string name = named.name;
+    if (!named.takes_prefix || !first.ends_with(name) || !have_one_dimension(first, name)) continue;
+    for (const std::string prefix : {"u", "m", "", "k", "M", "G"})
+      if (prefix + name != first && (prefix != "u" || name == "m") && have_one_dimension(prefix + name, name))
+        like.push_back(prefix + name + behind);
+  }
+  return like;
+}
+
+std::size_t unit_length(const std::string& text) { return UnitParser(text).longest_prefix(); }
+
 const std::vector<std::pair<std::string, double>>& unit_constants() {
   static const std::vector<std::pair<std::string, double>> constants = [] {
     std::vector<std::pair<std::string, double>> result;
-    for (const char* name : {"m",  "mm",  "cm",  "km",  "um",  "kg", "g",  "s", "ms", "min", "h",   "d", "day", "year",
-                             "Pa", "kPa", "MPa", "GPa", "bar", "N",  "kN", "J", "K",  "rad", "deg", "l", "mD",  "D"}) {
-      result.emplace_back(name, unit_of_name(name).scale);
+    const auto add = [&result](const std::string& name, double scale) {
+      const bool is_word = std::ranges::all_of(name, [](unsigned char c) { return std::isalpha(c) != 0; });
+      if (is_word && name != time_variable) result.emplace_back(name, scale);
+    };
+    for (const NamedUnit& named : named_units) {
+      add(named.name, named.unit.scale);
+      for (const Prefix& prefix : prefixes)
+        if (const std::string name = std::string(prefix.name) + named.name; named.takes_prefix && !named_unit(name))
+          add(name, prefix.scale * named.unit.scale);
     }
     return result;
   }();

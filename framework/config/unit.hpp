@@ -33,7 +33,19 @@ struct UnitProblem {
 /// "GPa", "m^2/s", "1/Pa", "MPa*m^0.5", "J/(kg*K)", "m^(1/2)", "%", "" (a plain number). Throws UnitProblem.
 Unit parse_unit(const std::string& text);
 
-/// Units that are written as one name, with their SI values, as far as expressions may use them: "h", "MPa", …
+bool is_unit(const std::string& text);
+/// Whether both texts are units, and of one dimension.
+bool have_one_dimension(const std::string& unit, const std::string& other);
+
+/// The length of the unit that stands at the beginning of a text, in an expression: of "h" in "h && x > 2", of "MPa/m"
+/// in "MPa/m*y"; 0 for none.
+std::size_t unit_length(const std::string& text);
+
+/// Units of the same dimension that are easily written for this one: with other prefixes of its first name ("MPa*s" for
+/// "mPa*s"), and degrees for radians. Not itself.
+std::vector<std::string> units_like(const std::string& unit);
+
+/// Units that are written as one word, with their SI values, for expressions: "h", "MPa", … Not t, which is the time.
 const std::vector<std::pair<std::string, double>>& unit_constants();
 
 }  // namespace sprekk

@@ -36,7 +36,24 @@ double scale_to_si(const std::string& written, const std::string& unit, const st
                    unit.empty() ? "write the number without a unit" : "give it in a unit like " + unit);
 }
 
+void require_plain_number(const std::string& text, const Origin& where, const std::string& name) {
+  const auto refuse = [&](const std::string& what, const std::string& why, const std::string& advice) {
+    throw InputError(where, given_as(name, text) + " " + what, why, advice);
+  };
+  const std::string content = trimmed(text);
+  if (const std::string other = with_exponent_e(content); !other.empty())
+    refuse("has no number that can be read", "powers of ten are written with 'e'", "write " + quoted(other));
+  const std::optional<LeadingNumber> number = leading_number(content);
+  const bool has_comma = number && number->length + 1 < content.size() && content[number->length] == ',';
+  if (has_comma && std::isdigit(static_cast<unsigned char>(content[number->length + 1])) != 0)
+    refuse("has a decimal comma", "", "write decimals with a point");
+  for (const auto& [minus, name_of_it] : {std::pair("\u2212", "minus sign"), std::pair("\u2013", "dash")})
+    if (content.find(minus) != std::string::npos)
+      refuse(std::string("has a ") + name_of_it + " that is no '-'", "it looks like one, as texts are set", "type '-'");
+}
+
 double parse_quantity(const std::string& text, const std::string& unit, const Origin& where, const std::string& name) {
+  require_plain_number(text, where, name);
   const std::string content = trimmed(text);
   const std::optional<LeadingNumber> number = leading_number(content);
   if (!number) {

@@ -27,6 +27,9 @@ double parse_quantity(const std::string& text, const std::string& unit, const Or
 /// have one behind it. `at` throws DataError where an expression has no finite value.
 Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name = "");
 
+/// Throws InputError for what looks like a number and is none: "1d-17", "1,5 m", a minus or a space of another script.
+void require_plain_number(const std::string& text, const Origin& where, const std::string& name);
+
 /// `value` (SI) as a scene would write it: "1000 kg/m^3".
 std::string quantity_text(double value, const std::string& unit);
 

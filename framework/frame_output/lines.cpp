@@ -133,6 +133,10 @@ struct LinesOptions {
                               if (letter == '/' || letter == '\\')
                                 throw InputError(origin, "the name of a line has a '" + std::string(1, letter) + "'",
                                                  "its table is a file of this name", "choose another name");
+                            constexpr std::size_t longest_name = 200;  // that of a file has at most 255 bytes
+                            if (key.size() > longest_name)
+                              throw InputError(origin, "the name of a line is too long",
+                                               "its table is a file of this name", "choose a shorter name");
                             lines[key].origin = origin;
                             return lines[key].spec();
                           },

@@ -8,7 +8,6 @@
 
 #include "framework/config/csv_rows.hpp"
 #include "framework/config/number.hpp"
-#include "framework/config/quantity_scale.hpp"
 #include "framework/config/text_file.hpp"
 
 namespace sprekk {
@@ -32,9 +31,9 @@ class TableReader {
     csv_ = split_csv(content());
     if (csv_.headings.empty())
       throw refused("has no headings", "its columns are known by them", "begin it with the line 'x1,y1,x2,y2'");
+    require_table(csv_, table_.file);
     check_columns();
     if (csv_.rows.empty()) throw refused("has headings only", "it needs a row for each fracture or point", "add rows");
-    require_table(csv_, table_.file);
     return find("x1") ? segments() : polylines();
   }
 
@@ -85,9 +84,7 @@ class TableReader {
 
   double length(const CsvRow& row, const std::string& name) const {
     const CsvHeading& heading = csv_.headings[*find(name)];
-    const double scale =
-        heading.unit.empty() ? 1 : scale_to_si(heading.unit, "m", heading.unit, {table_.file, 1}, name);
-    return number(row, name) * scale;
+    return number(row, name) * heading_scale(heading, "m", table_.file);
   }
 
   FractureGeometry fracture(const CsvRow& row, const std::string& name) const {

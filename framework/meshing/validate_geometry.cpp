@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "framework/mesh/distinct_text.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/mesh/search/segment_tree.hpp"
@@ -61,7 +62,8 @@ void validate_points(const Box& box, const std::vector<Point>& points, const std
     if (!point.allFinite()) throw InputError(origin, what + " has a point that is no finite number", to_text(point));
     if (depth(box, point) < -point_tolerance(box)) {
       throw InputError(origin, what + " leaves the box",
-                       "its point " + to_text(point) + " lies outside; " + box_text(box),
+                       "its point " + distinct_text(point, point.cwiseMax(box.low).cwiseMin(box.high)) +
+                           " lies outside; " + box_text(box),
                        "move the point or enlarge the box");
     }
   }

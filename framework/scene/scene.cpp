@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "framework/config/data_reader.hpp"
 #include "framework/config/table.hpp"
 #include "framework/config/units.hpp"
+#include "framework/config/unknown_key.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/joining/snap_geometry.hpp"
@@ -19,6 +21,7 @@
 #include "framework/meshing/validate_geometry.hpp"
 #include "framework/plugin/plugin.hpp"
 #include "framework/results/run_datum.hpp"
+#include "framework/scene/key_places.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/solve_step.hpp"
 
@@ -69,9 +72,11 @@ void check_sections(const Node& whole) {
   if (!whole.is_map())
     throw InputError(whole.origin, "the scene is not a map",
                      "a scene has sections such as 'geometry:' and 'components:'");
+  std::vector<std::string> problems;
   for (const Node::Entry& entry : whole.entries)
     if (std::find(section_names.begin(), section_names.end(), entry.key) == section_names.end())
-      throw unknown_name(entry.origin, "section of a scene", entry.key, section_names);
+      problems.emplace_back(unknown_key(entry.origin, "section of a scene", entry.key, section_names).what());
+  if (!problems.empty()) throw InputError(problems);
   for (const std::string needed : {"geometry", "components", "schedule", "time"})
     if (!whole.find(needed))
       throw InputError(
@@ -113,16 +118,19 @@ void check_materials(const Node* materials) {
   if (!materials->is_map())
     throw InputError(materials->origin, "'materials' is not a map", "it holds properties by name");
   const std::vector<std::string> names = material_names();
+  std::vector<std::string> problems;
   for (const Node::Entry& entry : materials->entries)
     if (std::find(names.begin(), names.end(), entry.key) == names.end())
-      throw unknown_name(entry.origin, "property of a material", entry.key, names);
+      problems.emplace_back(unknown_key(entry.origin, "property of a material", entry.key, names).what());
+  if (!problems.empty()) throw InputError(problems);
 }
 
-std::string type_of(const Node& node, const std::string& what) {
+std::string type_of(const Node& node, const std::string& what, const std::string& key = "") {
   const Node* type = node.is_map() ? node.find("type") : nullptr;
-  if (!type || !type->is_scalar())
-    throw InputError(node.origin, what + " has no type", "its 'type' says what it is", "see 'sprekk list'");
-  return type->scalar;
+  if (type && type->is_scalar()) return type->scalar;
+  const std::string belongs = place_of_key(key);
+  throw InputError(node.origin, what + " has no type", "its 'type' says what it is",
+                   belongs.empty() ? "see 'sprekk list'" : belongs);
 }
 
 /// Checks a name that becomes a part of names of fields ("pore.pressure"), columns and files.
@@ -139,7 +147,7 @@ void read_components(Scene& scene, const ReadContext& read) {
     throw InputError(components.origin, "there are no components", "they hold the physics", "see 'sprekk list'");
   for (const Node::Entry& entry : components.entries) {
     check_name(entry);
-    const std::string type = type_of(entry.value, "component '" + entry.key + "'");
+    const std::string type = type_of(entry.value, "component '" + entry.key + "'", entry.key);
     const Node& type_node = *entry.value.find("type");
     const ComponentType& registered = Registry::instance().component(type, type_node.origin);
     read.record(type_node.path, yaml_scalar(type), type_node.origin.text());
@@ -333,7 +341,6 @@ void note_times(Scene& scene) {
 }  // namespace
 
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name) {
-  check_sections(whole);
   data_forms()["run"] = read_run_datum;
   Scene scene;
   scene.whole = whole;
@@ -343,6 +350,12 @@ Scene read_scene(const Node& whole, const std::string& folder, const std::string
   std::set<std::string> materials_used;
   ReadContext read;
   read.folder = folder;
+  std::optional<KeyPlaces> places;  // made when the first key is in a wrong place
+  const KnownPlaces known([&](const std::string& key) {
+    if (!places) places.emplace(whole, section_names, scene_section_specs());
+    return places->text(key);
+  });
+  check_sections(whole);
   read.materials = whole.find("materials");
   read.record = [&scene](const std::string& path, const std::string& value, const std::string& origin) {
     scene.resolved.push_back({path, value, origin});

@@ -1,6 +1,7 @@
 // Reads the `schedule:` of a scene into a function that builds its tree of steps.
 #include <algorithm>
 
+#include "framework/config/unknown_key.hpp"
 #include "framework/plugin/plugin.hpp"
 #include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/iterate_step.hpp"
@@ -32,7 +33,9 @@ void check_components(const std::vector<std::string>& names, const Node& node, c
     const Origin& where = solve.is_list() ? solve.items[i].origin : solve.origin;
     const std::vector<std::string>& known = reading.component_names;
     if (std::find(known.begin(), known.end(), names[i]) == known.end())
-      throw unknown_name(where, "component", names[i], known);
+      throw InputError(
+          where, "unknown component " + quoted(names[i]), "it is not one of: " + listed(known),
+          names[i] == "all" ? "name each of them: 'solve: [" + listed(known) + "]'" : name_advice(names[i], known, ""));
     if (std::find(names.begin(), names.begin() + static_cast<long>(i), names[i]) !=
         names.begin() + static_cast<long>(i))
       throw InputError(where, "component " + quoted(names[i]) + " stands twice in one 'solve'",
@@ -80,12 +83,17 @@ Spec with_steps(Options& options, const Node*& inside) {
   return spec;
 }
 
-/// Reads the options of a step that has steps inside, and these steps; `adapt` may change the context for them.
-template <class Options>
-ScheduleBuilder read_inside(const Node& node, Options& options, ScheduleReading reading,
+/// The spec of the whole step whose options stand below its key: {iterate: {steps: …}}.
+Spec below_key(const std::string& key, Spec options) {
+  Spec spec("a step '" + key + "'", options.doc());
+  spec.section(key, std::move(options), {.required = true});
+  return spec;
+}
+
+/// Reads a step with `spec`, and the steps inside, which it finds; `adapt` may change the context for them.
+ScheduleBuilder read_inside(const Node& node, const Spec& spec, const Node* const& inside, ScheduleReading reading,
                             const std::function<void(ScheduleReading&)>& adapt = {}) {
-  const Node* inside = nullptr;
-  with_steps(options, inside).read(node, reading.read);
+  spec.read(node, reading.read);
   if (adapt) adapt(reading);
   return read_schedule(*inside, reading);
 }
@@ -101,7 +109,9 @@ bool has_substeps(const Node& steps) {
 
 ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
   IterateOptions options;
-  const ScheduleBuilder inside = read_inside(*node.find("iterate"), options, reading, [&](ScheduleReading& inner) {
+  const Node* found = nullptr;
+  const Spec spec = below_key("iterate", with_steps(options, found));
+  const ScheduleBuilder inside = read_inside(node, spec, found, reading, [&](ScheduleReading& inner) {
     options.newton = inner.newton;
     options.linear = inner.linear;
     inner.is_iterated = true;
@@ -110,12 +120,11 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
     constexpr double tighter = 0.1;
     inner.newton.residual = std::min(inner.newton.residual, tighter * options.until.tightest());
     options.newton.residual = inner.newton.residual;
-    const Node* steps = node.find("iterate")->find("steps");
-    options.has_substeps = has_substeps(*steps);
+    options.has_substeps = has_substeps(*found);
     inner.is_in_stages = reading.is_in_stages || !options.has_substeps;
     inner.may_be_inexact = !options.has_substeps && options.until.bounds_residual();
   });
-  const Node& steps = *node.find("iterate")->find("steps");
+  const Node& steps = *found;
   if (options.has_substeps) options.until.require_changes();
   if (const Node* fallback = node.find("iterate")->find("fallback");
       fallback && options.has_substeps && options.fallback != "none")
@@ -145,8 +154,10 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
 ScheduleBuilder read_subcycle(const Node& node, const ScheduleReading& reading) {
   SubcycleOptions options;
   bool takes_stages = false;
-  const ScheduleBuilder inside = read_inside(*node.find("subcycle"), options, reading, [&](ScheduleReading& inner) {
-    takes_stages = !reading.is_in_stages && !has_substeps(*node.find("subcycle")->find("steps"));
+  const Node* found = nullptr;
+  const Spec spec = below_key("subcycle", with_steps(options, found));
+  const ScheduleBuilder inside = read_inside(node, spec, found, reading, [&](ScheduleReading& inner) {
+    takes_stages = !reading.is_in_stages && !has_substeps(*found);
     inner.is_substep = inner.is_substep || options.count > 1;
     inner.may_be_inexact = inner.may_be_inexact && options.count == 1;
     inner.is_in_stages = reading.is_in_stages || takes_stages;
@@ -170,7 +181,8 @@ ScheduleBuilder read_when(const Node& node, const ScheduleReading& reading) {
                      "the iteration tests the residual of everything inside, also of what is not run",
                      "put the 'iterate' inside of the 'when'");
   WhenOptions options;
-  const ScheduleBuilder inside = read_inside(node, options, reading);
+  const Node* found = nullptr;
+  const ScheduleBuilder inside = read_inside(node, with_steps(options, found), found, reading);
   return [options, inside](const ScheduleContext& context) {
     return std::make_unique<WhenStep>(options, inside(context));
   };
@@ -321,7 +333,7 @@ ScheduleBuilder read_schedule(const Node& node, const ScheduleReading& reading) 
   }
   if (found) return found->read(node, reading);
   if (node.is_map() && !node.entries.empty())
-    throw unknown_name(node.entries.front().origin, "step of the schedule", node.entries.front().key, keys);
+    throw unknown_key(node.entries.front().origin, "step of the schedule", node.entries.front().key, keys);
   throw InputError(node.origin, "a step of the schedule is missing", "a step is a map such as 'solve: [pore, rock]'");
 }
 

@@ -7,8 +7,10 @@
 
 #include "framework/config/node_paths.hpp"
 #include "framework/config/text_file.hpp"
+#include "framework/config/unknown_key.hpp"
 #include "framework/config/yaml/load_scene.hpp"
 #include "framework/config/yaml/parse_yaml.hpp"
+#include "framework/scene/key_places.hpp"
 #include "framework/study/scene_identity.hpp"
 
 namespace sprekk {
@@ -202,6 +204,7 @@ Study read_study(const std::string& file) {
                      "a launcher is a command, and a file may come from anybody",
                      "call 'sprekk sweep " + file + " --launcher COMMAND'");
   StudyOptions options;
+  const KnownPlaces places([](const std::string& key) { return KeyPlaces(study_spec()).text(key); });
   options.spec().read(whole, {});
 
   Study study;

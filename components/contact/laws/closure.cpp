@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "components/capabilities/usual_ranges.hpp"
 #include "components/contact/laws/closure_options.hpp"
 
 namespace sprekk::contact {
@@ -53,6 +54,7 @@ Spec ClosureOptions::spec() {
                       "fracture under pressure begins narrower than that."});
   spec.quantity("stiffness", stiffness,
                 {.unit = "Pa/m", .range = non_negative(), .doc = "Normal stiffness of the joint at zero pressure."});
+  usually(spec, "stiffness", usual_joint_stiffness());
   spec.quantity("largest", largest,
                 {.unit = "m",
                  .range = non_negative(),

@@ -1,6 +1,8 @@
 // The parameters of tips with fine levels.
 #include "components/fine_fracture/tips/tips.hpp"
 
+#include "components/capabilities/usual_ranges.hpp"
+
 namespace sprekk::fine_fracture {
 
 void TipsOptions::declare_size(Spec& spec) {
@@ -21,6 +23,7 @@ void TipsOptions::declare_growth(Spec& spec) {
               "not grow.",
        .source = "the paper's sec. 2.5",
        .material = true});
+  usually(spec, "toughness", usual_toughness());
   spec.choice("meeting", meeting,
               {{"join", "it joins the other fracture, at the nearest point of its mesh, unless that closes a ring"},
                {"stop", "it stops for good"}},

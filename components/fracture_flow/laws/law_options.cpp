@@ -1,5 +1,7 @@
 #include "components/fracture_flow/laws/law_options.hpp"
 
+#include "components/capabilities/usual_ranges.hpp"
+
 #include <algorithm>
 
 namespace sprekk::fracture_flow {
@@ -22,6 +24,7 @@ Spec LawOptions::spec() {
                  .source = "Lomize 1951; Witherspoon et al. 1980"});
   spec.data("transmissivity", transmissivity,
             {.unit = "m^3", .range = non_negative(), .doc = "Of the constant law.", .in_time = true});
+  usually(spec, "transmissivity", usual_transmissivity());
   spec.data(
       "inertia", inertia,
       {.unit = "1/m",

@@ -1,5 +1,7 @@
 #include "components/fracture_flow/tpfa/options.hpp"
 
+#include "components/capabilities/usual_ranges.hpp"
+
 namespace sprekk::fracture_flow {
 
 namespace {
@@ -55,6 +57,7 @@ Spec Options::spec() {
              .required = true,
              .material = true,
              .in_time = true});
+  usually(spec, "viscosity", usual_viscosity());
   spec.data("fluid_compressibility", fluid_compressibility,
             {.unit = "1/Pa",
              .range = between(0, 100),
@@ -63,6 +66,7 @@ Spec Options::spec() {
              .required = true,
              .material = true,
              .in_time = true});
+  usually(spec, "fluid_compressibility", usual_compressibility());
   spec.data("initial_aperture", initial_aperture,
             {.unit = "m",
              .range = positive(),
@@ -70,6 +74,7 @@ Spec Options::spec() {
              .source = "a^0 below the paper's Eq. 8",
              .required = true,
              .fixed = "it is what the run starts from, and what opens adds to it"});
+  usually(spec, "initial_aperture", usual_aperture());
   spec.data("initial_pressure", initial_pressure,
             {.unit = "Pa", .doc = "Pressure at the start.", .fixed = "it is what the run starts from"});
   Spec grown("grown", "What the cells of a fracture that grows start with.");
@@ -93,6 +98,7 @@ Spec Options::spec() {
   spec.data(
       "transmissivity_value", transmissivity_value,
       {.unit = "m^3", .range = non_negative(), .doc = "The transmissivity, where it is constant.", .in_time = true});
+  usually(spec, "transmissivity_value", usual_transmissivity());
   spec.section("law", law.spec(), {.doc = "How well the fracture conducts, instead of transmissivity."}, &has_law);
   spec.choice("normal_permeability", normal_permeability,
               {{"cubic_law", "2 K_i/(mu a^2), which with the cubic law is a/(6 mu)"},
@@ -134,6 +140,7 @@ Spec Options::spec() {
                  .range = non_negative(),
                  .doc = "Density of the fluid; matters with gravity, and with the inertia of `law`, only.",
                  .material = true});
+  usually(spec, "fluid_density", usual_fluid_density());
   spec.texts("fractures", fractures,
              {.doc = "Fractures in which there is a flow, `joints_*` for all that begin so; all by default. The others "
                      "are dry: nothing flows in them or "

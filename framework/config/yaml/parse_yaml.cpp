@@ -8,29 +8,10 @@
 
 #include "framework/config/node_paths.hpp"
 #include "framework/config/text_file.hpp"
+#include "framework/config/yaml/likely_mistake.hpp"
 #include "framework/config/yaml/yaml_builder.hpp"
 
 namespace sprekk {
-namespace {
-
-/// Finds the commonest mistake, which the parser does not name: a tab in the indentation of a line, or of the line
-/// above.
-std::optional<Origin> tab_in_indentation(const std::string& text, const std::string& source, int line_of_error) {
-  std::istringstream lines(text);
-  int line = 0;
-  for (std::string content; std::getline(lines, content) && line <= line_of_error;) {
-    ++line;
-    const std::size_t first = content.find_first_not_of(' ');
-    const bool is_near = line + 1 >= line_of_error;
-    if (is_near && first != std::string::npos && content[first] == '\t') {
-      return Origin{source, line, static_cast<int>(first) + 1};
-    }
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
 Node parse_yaml(const std::string& text, const std::string& source_name) {
   require_text(text, source_name);
   std::istringstream stream(text);
@@ -44,13 +25,12 @@ Node parse_yaml(const std::string& text, const std::string& source_name) {
                        "remove the line '---' or use two files");
     }
   } catch (const YAML::Exception& error) {
-    if (const auto tab = tab_in_indentation(text, source_name, error.mark.line + 1)) {
-      throw InputError(*tab, "malformed YAML", "a tab stands in the indentation", "use spaces");
-    }
+    if (const std::optional<InputError> mistake = likely_mistake(text, source_name)) throw *mistake;
     throw InputError({source_name, error.mark.line + 1, error.mark.column + 1}, "malformed YAML", error.msg,
                      "check indentation, colons, quotes and brackets here and just above");
   }
   Node root = builder.take_root();
+  if (const std::optional<InputError> mistake = unclosed_quote(text, source_name)) throw *mistake;
   set_paths(root, "");
   return root;
 }

@@ -22,6 +22,21 @@ int depth_of(const Node& node) {
   return depth + 1;
 }
 
+/// Refuses what looks like a space or like nothing, and is neither: it comes with text that is copied from a page.
+void require_plain_spaces(const std::string& text, const Origin& where) {
+  for (const auto& [character, name] :
+       {std::pair("\u00A0", "non-breaking space"), std::pair("\u202F", "narrow non-breaking space"),
+        std::pair("\u2007", "figure space"), std::pair("\u2009", "thin space"),
+        std::pair("\u200B", "space of no width"), std::pair("\uFEFF", "byte order mark")}) {
+    const std::size_t at = text.find(character);
+    if (at != std::string::npos)
+      throw InputError(
+          where, quoted(text) + " has a " + name,
+          "behind its character " + std::to_string(at) + "; it looks like a space, and is another character",
+          "type a space instead");
+  }
+}
+
 /// Takes over the entries of `from` that `map` does not have itself.
 void merge_missing(Node& map, const Node& from) {
   if (!from.is_map()) throw InputError(from.origin, "'<<' needs a map to merge", "this is not one");
@@ -70,6 +85,7 @@ void YamlBuilder::OnScalar(const YAML::Mark& mark, const std::string& tag, YAML:
   node.origin = origin(mark);
   node.scalar = value;
   require_no_tag(tag, node.origin);
+  require_plain_spaces(value, node.origin);
   count(1, node.origin);
   remember(node, anchor);
   add(std::move(node));

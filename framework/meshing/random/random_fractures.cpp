@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "framework/mesh/distinct_text.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/meshing/random/random_laws.hpp"
 
@@ -19,8 +20,9 @@ constexpr int most_tries = 10000;
 void require_inside(const Box& region, const Box& box) {
   if ((region.low - box.low).minCoeff() >= 0 && (box.high - region.high).minCoeff() >= 0) return;
   throw InputError(region.origin, "the region of a random set leaves the box",
-                   fmt::format("it reaches from {} to {}, and the box from {} to {}", to_text(region.low),
-                               to_text(region.high), to_text(box.low), to_text(box.high)),
+                   fmt::format("it reaches from {} to {}, and the box from {} to {}",
+                               distinct_text(region.low, box.low), distinct_text(region.high, box.high),
+                               distinct_text(box.low, region.low), distinct_text(box.high, region.high)),
                    "move it into the box, or leave it out");
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "framework/config/usual_range.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/random/random_fractures_spec.hpp"
@@ -73,6 +74,7 @@ Spec fracture_spec(const std::string& name, const Origin& origin, const std::str
   spec.quantity(
       "angle", input->angle,
       {.unit = "rad", .doc = "The direction of a straight fracture, counter-clockwise from the x axis; by default 0."});
+  usually(spec, "angle", usual_angle());
   spec.quantity("size", input->size,
                 {.unit = "m", .range = positive(), .doc = "The length of its cells; else the mesh's fracture_size."});
   spec.text("table", input->table,

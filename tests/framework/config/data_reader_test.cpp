@@ -283,7 +283,22 @@ TEST(ReadTensor, wrong_maps_are_refused) {
   EXPECT_THAT(message("{along: 1, across: 1}"), HasSubstr("'angle' is missing for 'k'"));
   EXPECT_THAT(message("{along: 1, across: 1, angle: 1 m}"),
               HasSubstr("'1 m' for 'k.angle' has the dimension of length"));
-  EXPECT_THAT(message("{zz: 1}"), HasSubstr("{xx: , yy: , xy: }, {along: , across: , angle: }"));
+  EXPECT_THAT(message("{zz: 1}"), HasSubstr("unknown key of 'k': 'zz' (it is not one of: xx, along, regions"));
+}
+
+TEST(WithinRange, TakesTheBoundForAValueThatRoundOffMovesBeyondIt) {
+  const Data share = data("if(t < 5, 1, max(0, 1 - (t - 5)/3))", {.range = between(0, 1)});
+  EXPECT_EQ(share.at(at_time(6.5)), 0.5);
+  // 1 - t/4 is 1.0000000000000004 just before the start, as a sum of steps may miss it.
+  EXPECT_EQ(data("1 - t/4", {.range = between(0, 1)}).at(at_time(-1.8e-15)), 1);
+  EXPECT_EQ(data("1 - t/4", {.range = between(0, 1)}).at(at_time(4 + 4e-15)), 0);
+  // The scale of a pressure that falls to zero is the pressure before.
+  const Data pressure = data("5 MPa*(1 - t/(10 s))", {.unit = "Pa", .range = non_negative()});
+  EXPECT_EQ(pressure.at(at_time(10 + 2e-15)), 0);
+  EXPECT_THROW(pressure.at(at_time(10.0001)), DataError);
+  EXPECT_THROW(data("1 - t/4", {.range = between(0, 1)}).at(at_time(-1e-9)), DataError);
+  EXPECT_THROW(data("x*1e-20", {.range = positive()}).at({Point(0, 0), 0, 0}), DataError);  // an open bound
+  EXPECT_THROW(data("0.3 - 0.30001", {.range = non_negative()}), InputError);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "framework/config/resolved_yaml.hpp"
+#include "framework/config/describe/resolved_yaml.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/config/yaml/parse_yaml.hpp"
 

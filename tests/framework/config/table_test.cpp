@@ -79,6 +79,37 @@ TEST_F(ReadTable, takes_units_from_the_headings) {
   EXPECT_DOUBLE_EQ(at_time(read(), 3600), 2e6);
 }
 
+TEST_F(ReadTable, TakesUnitsInAnyBracketsAndBehindASlash) {
+  for (const char* heading : {"p[MPa]", "p (MPa)", "p {MPa}", "p / MPa", "p/MPa", "\"p (MPa)\"", "p(MPa)"}) {
+    write(std::string("t (h),") + heading + "\n0,1\n2,3\n");
+    EXPECT_DOUBLE_EQ(at_time(read(), 3600), 2e6) << heading;
+    EXPECT_DOUBLE_EQ(at_time(read("column: p"), 3600), 2e6) << heading;
+  }
+  write("t,p (m/s)\n0,1\n2,3\n");
+  EXPECT_THAT(error(), HasSubstr("has the dimension of velocity"));
+}
+
+TEST_F(ReadTable, RefusesWhatIsNoUnitInAHeading) {
+  write("t,p (Mpa)\n0,1\n2,3\n");
+  EXPECT_EQ(
+      error(),
+      "p.csv:1: 'Mpa' in the heading 'p (Mpa)' is no unit (what stands in brackets or behind '/' is taken for the "
+      "unit of the column) write 'p[Pa]', or a name without it");
+  write("t,p (left),p (right)\n0,1,2\n2,3,4\n");  // two names, of which none is needed here
+  EXPECT_THAT(error("column: p (right)"), HasSubstr("'right' in the heading 'p (right)' is no unit"));
+}
+
+TEST_F(ReadTable, NamesTheSeparator) {
+  write("t;p\n0;1\n2;3\n");
+  EXPECT_EQ(error(),
+            "p.csv:1: ';' separates the columns (cells are separated by commas, and decimals have a point) write "
+            "the table with commas");
+  write("t\tp\n0\t1\n2\t3\n");
+  EXPECT_THAT(error(), StartsWith("p.csv:1: a tab separates the columns"));
+  write("0;1\n2;3\n");
+  EXPECT_THAT(error(), StartsWith("p.csv:1: ';' separates the columns"));
+}
+
 TEST_F(ReadTable, takes_the_unit_of_the_request_first) {
   write("0,1\n2,3\n");
   EXPECT_DOUBLE_EQ(at_time(read("unit: kPa"), 1), 2e3);

@@ -45,6 +45,17 @@ TEST_F(FractureTables, HaveARowForEachSegment) {
   EXPECT_EQ(fractures[1].origin.line, 4);
 }
 
+TEST_F(FractureTables, TakeUnitsInAnyBracketsAndBehindASlash) {
+  const auto fractures = read("x1 (mm),y1 {mm},x2 / km,y2[cm],size (mm),aperture (mm)\n500,250,0.002,75,20,3\n");
+  EXPECT_EQ(fractures[0].points, (std::vector<Point>{Point(0.5, 0.25), Point(2, 0.75)}));
+  EXPECT_DOUBLE_EQ(*fractures[0].size, 0.02);
+  EXPECT_EQ(fractures[0].values[0].column, "aperture");
+  EXPECT_EQ(fractures[0].values[0].unit, "mm");
+  EXPECT_THAT(mistake("x1 (M),y1,x2,y2\n1,2,3,4\n"),
+              ::testing::StartsWith("f.csv:1: 'M' in the heading 'x1 (M)' is no unit"));
+  EXPECT_THAT(mistake("x1;y1;x2;y2\n1;2;3;4\n"), ::testing::StartsWith("f.csv:1: ';' separates the columns"));
+}
+
 TEST_F(FractureTables, OrOneForEachPointOfAPolyline) {
   const auto fractures = read("name,x,y\na,0,1\na,2,1\na,3,4\n\"b c\",9,9\n\"b c\",8,9\n");
   ASSERT_EQ(fractures.size(), 2u);

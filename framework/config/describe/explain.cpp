@@ -1,7 +1,8 @@
 // What `sprekk explain` prints: everything that a spec declares, within 100 columns.
 #include <sstream>
 
-#include "framework/config/parameter_text.hpp"
+#include "framework/config/describe/parameter_text.hpp"
+#include "framework/config/usual_range.hpp"
 
 namespace sprekk {
 namespace {
@@ -30,18 +31,29 @@ std::string wrapped(const std::string& text, std::size_t indentation) {
   return line.empty() ? result : result + margin + line + "\n";
 }
 
+std::string described(const Spec& spec, std::size_t indentation);
+
+std::string described(const Parameter& parameter, std::size_t indentation) {
+  std::string text = wrapped(parameter.name + ": " + facts(parameter), indentation);
+  text += wrapped(meaning(parameter), indentation + 4);
+  for (const auto& [value, doc] : parameter.choices) text += wrapped(value + ": " + doc, indentation + 6);
+  return parameter.inner ? text + described(*parameter.inner, indentation + 4) : text;
+}
+
 std::string described(const Spec& spec, std::size_t indentation) {
   std::string text;
   for (const Parameter& parameter : spec.parameters()) {
-    text += wrapped(parameter.name + ": " + facts(parameter), indentation);
-    text += wrapped(meaning(parameter), indentation + 4);
-    for (const auto& [value, doc] : parameter.choices) text += wrapped(value + ": " + doc, indentation + 6);
-    if (parameter.inner) text += described(*parameter.inner, indentation + 4);
+    text += described(parameter, indentation);
+    if (const UsualRange* usual = usual_range(spec, parameter.name))
+      text += wrapped("As a rule it is " + usual_text(*usual, parameter.about.unit) + " (" + usual->source + ").",
+                      indentation + 4);
   }
   return text;
 }
 
 }  // namespace
+
+std::string explain(const Parameter& parameter) { return described(parameter, 2); }
 
 std::string explain(const Spec& spec) {
   std::string text = spec.name() + "\n" + wrapped(spec.doc(), 2);

@@ -1,4 +1,4 @@
-#include "framework/config/parameter_text.hpp"
+#include "framework/config/describe/parameter_text.hpp"
 
 namespace sprekk {
 

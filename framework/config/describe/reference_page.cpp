@@ -1,7 +1,9 @@
 // The reference page of a spec, in Markdown.
 #include <algorithm>
 
-#include "framework/config/parameter_text.hpp"
+#include "framework/config/describe/parameter_text.hpp"
+#include "framework/config/inner_path.hpp"
+#include "framework/config/usual_range.hpp"
 
 namespace sprekk {
 namespace {
@@ -22,6 +24,8 @@ std::string table(const Spec& spec, const std::string& path, int level) {
   for (const Parameter& parameter : spec.parameters()) {
     const bool is_code = !parameter.about.required && !parameter.default_text.empty();
     std::string meant = meaning(parameter);
+    if (const UsualRange* usual = usual_range(spec, parameter.name))
+      meant += " As a rule it is " + usual_text(*usual, parameter.about.unit) + " (" + usual->source + ").";
     if (parameter.about.in_time) meant += " May change with time.";
     if (parameter.about.material) meant += " May stand in `materials`.";
     text += "|" + cell(code(path + parameter.name)) + "|" + cell(kind_text(parameter)) + "|" +
@@ -35,12 +39,10 @@ std::string table(const Spec& spec, const std::string& path, int level) {
   }
   for (const Parameter& parameter : spec.parameters()) {
     if (!parameter.inner) continue;
-    const std::string item = parameter.kind == "section" ? "" : parameter.kind == "named sections" ? ".NAME" : ".INDEX";
-    const std::string inner_path = path + parameter.name + item;
-    text += "\n" + std::string(static_cast<std::size_t>(level), '#') + " `" + inner_path + "`\n\n";
+    const std::string inside = path + inner_path("", parameter);
+    text += "\n" + std::string(static_cast<std::size_t>(level), '#') + " `" + inside + "`\n\n";
     if (!parameter.inner->doc().empty()) text += parameter.inner->doc() + "\n\n";
-    if (!parameter.inner->parameters().empty())
-      text += table(*parameter.inner, inner_path + ".", std::min(level + 1, 6));
+    if (!parameter.inner->parameters().empty()) text += table(*parameter.inner, inside + ".", std::min(level + 1, 6));
   }
   return text;
 }

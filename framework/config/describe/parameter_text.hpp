@@ -12,4 +12,7 @@ std::string kind_text(const Parameter& parameter);     ///< "quantity", "one of 
 std::string default_text(const Parameter& parameter);  ///< "required", "1000 kg/m^3", "none"
 std::string meaning(const Parameter& parameter);       ///< the sentence and its source
 
+/// What `sprekk explain` prints of one parameter.
+std::string explain(const Parameter& parameter);
+
 }  // namespace sprekk

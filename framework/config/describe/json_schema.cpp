@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "framework/config/parameter_text.hpp"
+#include "framework/config/describe/parameter_text.hpp"
 
 namespace sprekk {
 namespace {

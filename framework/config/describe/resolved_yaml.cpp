@@ -1,4 +1,4 @@
-#include "framework/config/resolved_yaml.hpp"
+#include "framework/config/describe/resolved_yaml.hpp"
 
 #include <algorithm>
 #include <sstream>

@@ -1,0 +1,28 @@
+#include "framework/config/unknown_key.hpp"
+
+#include <utility>
+
+namespace sprekk {
+namespace {
+
+PlaceOfKey& current() {
+  static PlaceOfKey place;
+  return place;
+}
+
+}  // namespace
+
+KnownPlaces::KnownPlaces(PlaceOfKey place) : before_(std::exchange(current(), std::move(place))) {}
+
+KnownPlaces::~KnownPlaces() { current() = std::move(before_); }
+
+std::string place_of_key(const std::string& key) { return current() ? current()(key) : ""; }
+
+InputError unknown_key(const Origin& where, const std::string& what, const std::string& key,
+                       const std::vector<std::string>& allowed) {
+  return InputError(where, "unknown " + what + " " + quoted(key),
+                    allowed.empty() ? "there is none" : "it is not one of: " + listed(allowed),
+                    name_advice(key, allowed, place_of_key(key)));
+}
+
+}  // namespace sprekk

@@ -1,0 +1,28 @@
+// The values that a parameter has as a rule, beside those that are possible.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "framework/config/spec.hpp"
+
+namespace sprekk {
+
+/// An interval in SI units, and who says so. A scene that gives another value is told.
+struct UsualRange {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  const char* source = "";
+  /// Zero is usual: it leaves an effect out.
+  bool contains(double value) const { return value == 0 || (value >= low && value <= high); }
+};
+
+/// Declares the usual range of a parameter that the spec has. A parameter that it has not is a std::logic_error.
+void usually(const Spec& spec, const std::string& parameter, const UsualRange& range);
+/// The usual range of a parameter, or nullptr.
+const UsualRange* usual_range(const Spec& spec, const std::string& parameter);
+UsualRange usual_angle();  ///< of a direction, rad: less than a full turn
+/// "from 1e+05 to 2e+11 Pa".
+std::string usual_text(const UsualRange& range, const std::string& unit);
+
+}  // namespace sprekk
