@@ -113,7 +113,7 @@ void MatrixFlow::report(std::vector<Quantity>& quantities) const {
   if (options_.boundary.empty()) return;
   Vector outflow = Vector::Zero(static_cast<Eigen::Index>(mesh_.side_names.size()));
   if (has_flowed) {
-    const Vector& fluxes = face_fluxes();
+    const Vector& fluxes = fluxes_of_step();
     for (int f = 0; f < mesh_.face_count(); ++f)
       if (mesh_.face_side[f] != none && is_owned(mesh_, Location::face, f)) outflow[mesh_.face_side[f]] += fluxes[f];
     parallel::sum(outflow);
@@ -132,7 +132,7 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
     fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
     return;
   }
-  const Vector& fluxes = face_fluxes();
+  const Vector& fluxes = fluxes_of_step();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     if (!is_in_cell(c)) continue;
     for (const int face : mesh_.cell_faces[c]) {

@@ -126,6 +126,7 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
   for (const auto& [face, cell] : outer_faces_) sums[3 * cell + 2] += step.dt * fluxes[face];
   replicate(mesh_, Location::cell, 3, sums);
   cumulative_.set(std::move(sums));
+  solved_fluxes_ = fluxes;
 }
 
 void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {

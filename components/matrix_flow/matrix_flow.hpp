@@ -99,6 +99,8 @@ class MatrixFlow : public Component,
   void add_known_within_cells(const Field& field, KnownWithinCells& known) const override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
+  void accepted() override { solved_fluxes_ = {}; }
+  void rewound() override { solved_fluxes_ = {}; }
   void balance(std::map<std::string, Balance>& balances) const override;
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   /// Limited fluxes are held as the linear mean of both sides, and become smooth functions (`rounding` of `limit`) that
@@ -288,6 +290,11 @@ class MatrixFlow : public Component,
   enum class State { accepted, now };
   const Flow& flow(State state) const;
   void forget_flow();
+  /// The flux through each face, m^2/s, as the flow was solved in this step: after substeps or stages, in the last one.
+  /// With data of the whole step (a viscosity that follows the temperature at its start) the same pressures would have
+  /// fluxes that do not balance.
+  const Vector& fluxes_of_step() const { return solved_fluxes_.size() > 0 ? solved_fluxes_ : face_fluxes(); }
+  Vector solved_fluxes_;  ///< empty where the flow was not solved in this step
   /// A step uses the flow at the accepted and at the current state several times.
   mutable std::array<Flow, 2> flows_;
   mutable std::uint64_t flow_uses_ = 0;

@@ -7,7 +7,7 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_border.hpp"
 #include "couplers/heat_advection/carried_heat.hpp"
-#include "couplers/heat_advection/held_flux.hpp"
+#include "couplers/heat_advection/held_flow.hpp"
 #include "couplers/heat_advection/options.hpp"
 #include "couplers/heat_advection/streams.hpp"
 #include "framework/assembly/balance_rows.hpp"
@@ -29,11 +29,7 @@ namespace {
 class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
  public:
   HeatAdvection(const CouplerContext& context, const HeatAdvectionOptions& options)
-      : Coupler(context.name),
-        mesh_(context.mesh),
-        options_(options),
-        origin_(context.origin),
-        start_(context.start_time) {
+      : Coupler(context.name), mesh_(context.mesh), options_(options), origin_(context.origin) {
     matrix_ = context.find<MatrixFluxes>();
     fracture_ = context.find<FractureFluxes>();
     walls_ = context.find<MatrixWalls>();
@@ -46,12 +42,14 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
                        "name such components in `between`, or remove the coupler for conduction alone");
     const double c = options_.fluid_heat_capacity;
     if (rock_heat_ && matrix_) rock_ = {context, rock_heat_->temperature(), Location::cell, "rock", c};
-    if (rock_.temperature && flow_in_rock_) held_flux_.emplace(context, *matrix_, flow_in_rock_->pressure());
     if (fracture_heat_ && fracture_)
       fractures_ = {context, fracture_heat_->temperature(), Location::fracture_cell, "fractures", c};
     find_wells(context);
     for (const CarriedHeat* place : {&rock_, &fractures_})
       if (place->temperature) at_start_.push_back(place->temperature->now());
+    flow_.emplace(context,
+                  CarryingFlow{rock_.temperature ? matrix_ : nullptr,
+                               flow_in_rock_ ? &flow_in_rock_->pressure() : nullptr, walls_, fracture_, wells_.wells});
   }
 
   /// Heat that is carried through the walls in a step is the same for both sides.
@@ -78,60 +76,57 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
     if (rock_.temperature) rock_.check(rock_heat_->heat_capacity(), name());
     if (fractures_.temperature) fractures_.check(fracture_heat_->heat_capacity(), name());
   }
-  void begin_step(const StepTime& step) override { has_flowed_ = starts_from_state_ || step.start > start_; }
+  void begin_step(const StepTime&) override {}
 
   void assemble(Assembly& assembly, const StepTime& step) const override {
-    if (!has_flowed_ &&
-        std::ranges::none_of(flow_fields(), [&](const Field* field) { return assembly.has_row(*field); }))
-      return;
-    if (rock_.temperature && assembly.has_row(*rock_.temperature)) {
-      const bool is_held = held_flux_ && !assembly.has_row(flow_in_rock_->pressure());
-      add(assembly, rock_, streams_of_rock(sources(), is_held ? held_flux_->now() : matrix_->face_fluxes()), step);
-    }
-    if (fractures_.temperature && assembly.has_row(*fractures_.temperature))
-      add(assembly, fractures_, streams_of_fractures(sources()), step);
+    const auto has_row = [&](const Field& field) { return assembly.has_row(field); };
+    const bool is_in_rock = rock_.temperature && has_row(*rock_.temperature);
+    const bool is_in_fractures = fractures_.temperature && has_row(*fractures_.temperature);
+    if (!is_in_rock && !is_in_fractures) return;
+    // As long as no solve has found the flow, heat that is solved before it is not carried: the fluxes of initial
+    // values are no flow, and may drain a cell of many times what it holds.
+    const auto is_solved = [&](const Field* field) { return has_row(*field); };
+    if (!flow_->has_flowed() && std::ranges::none_of(flow_->fields(), is_solved)) return;
+    const FlowRates rates = flow_->rates(has_row, step);
+    const Mixtures wells = wells_.mixtures(rates.wells);
+    if (is_in_rock)
+      add(assembly, rock_, streams_of_rock(sources(), rates, flow_->fluxes_in_rock(has_row, step)), wells, step);
+    if (is_in_fractures) add(assembly, fractures_, streams_of_fractures(sources(), rates), wells, step);
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
-    const auto has = [&](const Field* field) {
-      return field && std::find(solved.begin(), solved.end(), field) != solved.end();
+    const auto has = [&](const Field& field) {
+      return std::ranges::any_of(solved, [&](const Field* each) { return each == &field; });
     };
-    if (std::ranges::any_of(flow_fields(), has)) {
-      has_flowed_ = true;
-    }
-    if (held_flux_ && has(&flow_in_rock_->pressure())) held_flux_->take();
-    if (!has_flowed_) return;
-    if (has(rock_.temperature))
-      count(rock_, streams_of_rock(sources(), held_flux_ ? held_flux_->now() : matrix_->face_fluxes()), step);
-    if (has(fractures_.temperature)) count(fractures_, streams_of_fractures(sources()), step);
+    flow_->take(has, step);
+    if (!flow_->has_flowed()) return;
+    const bool is_in_rock = rock_.temperature && has(*rock_.temperature);
+    const bool is_in_fractures = fractures_.temperature && has(*fractures_.temperature);
+    if (!is_in_rock && !is_in_fractures) return;
+    const FlowRates rates = flow_->rates(has, step);
+    const Mixtures wells = wells_.mixtures(rates.wells);
+    if (is_in_rock) count(rock_, streams_of_rock(sources(), rates, flow_->fluxes_in_rock(has, step)), wells, step);
+    if (is_in_fractures) count(fractures_, streams_of_fractures(sources(), rates), wells, step);
   }
 
-  void carry_over(const Part&, const MeshChange&) override {
-    if (held_flux_) held_flux_->forget();
+  void carry_over(const Part& before, const MeshChange&) override {
+    flow_->carry_over(*dynamic_cast<const HeatAdvection&>(before).flow_);
   }
-  void accepted() override {
-    if (held_flux_) held_flux_->accepted();
-  }
-  void rewound() override {
-    if (held_flux_) held_flux_->rewound();
-  }
-  void save(std::map<std::string, Vector>& state) const override {
-    if (held_flux_) held_flux_->save(state);
-  }
-  void restore(const std::map<std::string, Vector>& state) override {
-    if (held_flux_) held_flux_->restore(state);
-  }
+  void accepted() override { flow_->accepted(); }
+  void rewound() override { flow_->rewound(); }
+  void save(std::map<std::string, Vector>& state) const override { flow_->save(state); }
+  void restore(const std::map<std::string, Vector>& state) override { flow_->restore(state); }
 
   void begin_totals() override {
-    starts_from_state_ = true;
+    flow_->begin(true);
     for (const CarriedHeat* place : {&rock_, &fractures_})
       if (place->temperature) place->cumulative->set_both(Vector::Zero(place->cumulative->size()));
   }
 
   /// The heat capacity of cells is that with the fluid that they have in the settled state.
   void count_amounts_from_here(const SettledFields& settled) override {
-    starts_from_state_ =
-        std::ranges::any_of(flow_fields(), [&](const Field* field) { return settled.contain(*field); });
+    const auto is_settled = [&](const Field* field) { return settled.contain(*field); };
+    flow_->begin(std::ranges::any_of(flow_->fields(), is_settled));
     for (const CarriedHeat* place : {&rock_, &fractures_})
       if (place->temperature) place->received->set_both(Vector::Zero(place->received->size()));
   }
@@ -153,7 +148,8 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
       }
       quantities.push_back({name() + "." + place + ".temperature", "K", rate > 0 ? sum / rate : 0.0});
     };
-    const Mixtures fluid = wells_.mixtures();
+    const FlowRates now = flow_->rates([](const Field&) { return true; }, {});
+    const Mixtures fluid = wells_.mixtures(now.wells);
     for (std::size_t well = 0; well < fluid.size(); ++well)
       if (fluid[well])
         quantities.push_back(
@@ -166,7 +162,7 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
     for (const FluidSource& source : fracture_->fluid_sources()) mean(source.name, temperature, source.rates);
     for (const FluidReservoir& reservoir : fracture_->fluid_reservoirs()) {
       std::vector<std::pair<int, double>> rates;
-      for (const Stream& stream : streams_of_fractures(sources()))
+      for (const Stream& stream : streams_of_fractures(sources(), now))
         if (stream.flux == Stream::Flux::none && std::ranges::count(reservoir.cells, stream.cell))
           rates.emplace_back(stream.cell, stream.rate);
       mean(reservoir.name, temperature, rates);
@@ -201,20 +197,8 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
   }
 
  private:
-  /// What the fluxes follow from. As long as no solve has found it, heat that is solved before the flow is not carried:
-  /// the fluxes of initial values are no flow, and may drain a cell of many times what it holds.
-  std::vector<const Field*> flow_fields() const {
-    std::vector<const Field*> fields;
-    if (flow_in_rock_) fields.push_back(&flow_in_rock_->pressure());
-    if (walls_ && mesh_.wall_count() > 0 && walls_->wall_flux().is_solved()) fields.push_back(&walls_->wall_flux());
-    if (fracture_) fields.push_back(&fracture_->flux());
-    return fields;
-  }
-
   StreamSources sources() const {
-    StreamSources sources{mesh_, matrix_, walls_};
-    if (walls_ && mesh_.wall_count() > 0 && walls_->wall_flux().is_solved()) sources.wall_flux = &walls_->wall_flux();
-    sources.fracture = fracture_;
+    StreamSources sources{mesh_, fracture_};
     sources.matrix_heat = rock_.temperature ? rock_heat_ : nullptr;
     sources.fracture_heat = fractures_.temperature ? fracture_heat_ : nullptr;
     sources.injected = injected_;
@@ -279,7 +263,7 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
     return own;
   }
 
-  void add(Assembly& assembly, const CarriedHeat& place, const std::vector<Stream>& streams,
+  void add(Assembly& assembly, const CarriedHeat& place, const std::vector<Stream>& streams, const Mixtures& wells,
            const StepTime& step) const {
     const Field& temperature = *place.temperature;
     const double scale = options_.fluid_heat_capacity * step.dt;
@@ -288,7 +272,6 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
     double largest = 0, largest_rate = 0, largest_difference = 0;
     std::vector<Triplet> own, of_rock, of_fractures;
     std::array<std::vector<Triplet>, 4> by_flux;  // by Stream::Flux
-    const Mixtures wells = wells_.mixtures();
     for (const Stream& stream : streams) {
       SPREKK_ASSERT(std::isfinite(stream.rate), stream.cell, stream.rate);
       if (stream.rate <= 0 || stream.from == Stream::From::own) continue;
@@ -355,8 +338,7 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
       assembly.derivative(temperature, wells_.wells->rate(), block(entries, wells_.wells->rate().size()));
   }
 
-  void count(CarriedHeat& place, const std::vector<Stream>& streams, const StepTime& step) {
-    const Mixtures wells = wells_.mixtures();
+  void count(CarriedHeat& place, const std::vector<Stream>& streams, const Mixtures& wells, const StepTime& step) {
     std::vector<double> temperatures;
     for (const Stream& stream : streams) temperatures.push_back(temperature_of(place, stream, wells));
     const Vector& capacity = &place == &rock_ ? rock_heat_->heat_capacity() : fracture_heat_->heat_capacity();
@@ -375,11 +357,8 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
   HeatOfWells wells_;
   std::vector<Vector> at_start_;  ///< temperatures of the cells that fluid reaches, K
   CarriedHeat rock_, fractures_;
-  std::optional<HeldFlux> held_flux_;
+  std::optional<HeldFlow> flow_;
   std::vector<std::pair<std::string, double>> injected_;  ///< K, in this step
-  double start_;                                          ///< s
-  bool starts_from_state_ = false;                        ///< whether flow was solved for before the first step
-  bool has_flowed_ = false;                               ///< whether the fluxes are those of a solve
 };
 
 const RegisterCoupler<HeatAdvection, HeatAdvectionOptions> registration("heat_advection");

@@ -21,8 +21,8 @@ Stream with_flux(Stream stream, Stream::Flux flux, int index, double by_flux) {
 }
 
 /// The streams through walls into the rock (sign 1), or into the fractures (−1).
-void append_walls(const StreamSources& sources, double sign, std::vector<Stream>& streams) {
-  if (!sources.wall_flux) return;
+void append_walls(const StreamSources& sources, const Vector& rates, double sign, std::vector<Stream>& streams) {
+  if (rates.size() == 0) return;
   const Mesh& mesh = sources.mesh;
   const bool has_both = sources.matrix_heat && sources.fracture_heat;
   for (int w = 0; w < mesh.wall_count(); ++w) {
@@ -30,7 +30,7 @@ void append_walls(const StreamSources& sources, double sign, std::vector<Stream>
     const bool into_rock = sign > 0;
     if (into_rock && mesh.cell_rank[rock_cell] != parallel::rank()) continue;
     const double length = sign * mesh.fracture_cells[fracture_cell].measure;
-    Stream stream{into_rock ? rock_cell : fracture_cell, length * sources.wall_flux->now()[w], Stream::From::own};
+    Stream stream{into_rock ? rock_cell : fracture_cell, length * rates[w], Stream::From::own};
     if (has_both) {
       stream.from = into_rock ? Stream::From::fracture_cell : Stream::From::rock_cell;
       stream.index = into_rock ? fracture_cell : rock_cell;
@@ -49,7 +49,7 @@ void append_sources(const StreamSources& sources, const std::vector<FluidSource>
 }
 
 /// The streams out of wells into the cells that belong to the flow with this pressure.
-void append_wells(const StreamSources& sources, const Field* pressure, bool only_own_cells,
+void append_wells(const StreamSources& sources, const Vector& rates, const Field* pressure, bool only_own_cells,
                   std::vector<Stream>& streams) {
   if (!sources.wells || !pressure) return;
   for (int k = 0; k < static_cast<int>(sources.wells->places().size()); ++k) {
@@ -57,7 +57,7 @@ void append_wells(const StreamSources& sources, const Field* pressure, bool only
     if (around.pressure != pressure) continue;
     for (const auto& [cell, share] : around.shares) {
       if (only_own_cells && sources.mesh.cell_rank[cell] != parallel::rank()) continue;
-      const double rate = share * sources.wells->rate().now()[k];
+      const double rate = share * rates[k];
       Stream stream{cell, rate, Stream::From::well, sources.wells->places()[k].well};
       stream.is_outside = true;
       streams.push_back(with_flux(stream, Stream::Flux::well, k, share));
@@ -67,9 +67,9 @@ void append_wells(const StreamSources& sources, const Field* pressure, bool only
 
 }  // namespace
 
-std::vector<Stream> streams_of_rock(const StreamSources& sources, const Vector& fluxes) {
+std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes) {
   std::vector<Stream> streams;
-  if (!sources.matrix || !sources.matrix_heat) return streams;
+  if (!sources.matrix_heat) return streams;
   const Mesh& mesh = sources.mesh;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     if (mesh.cell_rank[c] != parallel::rank()) continue;
@@ -86,17 +86,17 @@ std::vector<Stream> streams_of_rock(const StreamSources& sources, const Vector& 
       streams.push_back(with_flux(stream, Stream::Flux::face, f, sign));
     }
   }
-  append_walls(sources, 1, streams);
-  append_sources(sources, sources.matrix->fluid_sources(), true, streams);
-  append_wells(sources, sources.rock_pressure, true, streams);
+  append_walls(sources, rates.walls, 1, streams);
+  append_sources(sources, rates.sources_in_rock, true, streams);
+  append_wells(sources, rates.wells, sources.rock_pressure, true, streams);
   return streams;
 }
 
-std::vector<Stream> streams_of_fractures(const StreamSources& sources) {
+std::vector<Stream> streams_of_fractures(const StreamSources& sources, const FlowRates& rates) {
   std::vector<Stream> streams;
   if (!sources.fracture || !sources.fracture_heat) return streams;
   const Mesh& mesh = sources.mesh;
-  const Vector& fluxes = sources.fracture->flux().now();
+  const Vector& fluxes = rates.points;
   for (int p = 0; p < static_cast<int>(mesh.fracture_points.size()); ++p) {
     if (fluxes[p] == 0) continue;
     const FracturePoint& point = mesh.fracture_points[p];
@@ -112,9 +112,9 @@ std::vector<Stream> streams_of_fractures(const StreamSources& sources) {
       streams.push_back(with_flux(stream, Stream::Flux::fracture_point, p, sign));
     }
   }
-  append_walls(sources, -1, streams);
-  append_sources(sources, sources.fracture->fluid_sources(), false, streams);
-  append_wells(sources, sources.fracture_pressure, false, streams);
+  append_walls(sources, rates.walls, -1, streams);
+  append_sources(sources, rates.sources_in_fractures, false, streams);
+  append_wells(sources, rates.wells, sources.fracture_pressure, false, streams);
   Vector net = Vector::Zero(mesh.fracture_cell_count());
   for (const Stream& stream : streams) net[stream.cell] += stream.rate;
   for (const FluidReservoir& reservoir : sources.fracture->fluid_reservoirs())

@@ -28,12 +28,17 @@ struct Stream {
   double by_flux = 0;  ///< d rate / d flux
 };
 
+/// The rates of fluid that hold in a step, without those through faces. What is missing is empty.
+struct FlowRates {
+  Vector walls;   ///< from the fracture into the rock, m/s
+  Vector points;  ///< through each fracture point, from its first to its second cell, m^2/s
+  Vector wells;   ///< out of the well at each place, m^2/s
+  std::vector<FluidSource> sources_in_rock = {}, sources_in_fractures = {};
+};
+
 /// What the streams are found from. Everything but the mesh may be missing.
 struct StreamSources {
   const Mesh& mesh;
-  const MatrixFluxes* matrix = nullptr;
-  const MatrixWalls* walls = nullptr;
-  const Field* wall_flux = nullptr;
   const FractureFluxes* fracture = nullptr;
   const MatrixTemperature* matrix_heat = nullptr;
   const FractureTemperature* fracture_heat = nullptr;
@@ -51,8 +56,8 @@ struct StreamSources {
 };
 
 /// The streams of cells of the rock that the process owns. `fluxes`: through each face, m^2/s, out of face_cells[f][0].
-std::vector<Stream> streams_of_rock(const StreamSources& sources, const Vector& fluxes);
+std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes);
 /// The streams of all fracture cells. A reservoir supplies what its cells lose to others, and takes what they gain.
-std::vector<Stream> streams_of_fractures(const StreamSources& sources);
+std::vector<Stream> streams_of_fractures(const StreamSources& sources, const FlowRates& rates);
 
 }  // namespace sprekk::couplers

@@ -21,7 +21,7 @@ struct Opening {
   double share, rate, temperature;
 };
 
-std::vector<Opening> openings(const HeatOfWells& heat, int well) {
+std::vector<Opening> openings(const HeatOfWells& heat, const Vector& rates, int well) {
   const WellPressures& wells = *heat.wells;
   std::vector<Opening> openings;
   for (int k = 0; k < static_cast<int>(wells.places().size()); ++k) {
@@ -30,7 +30,7 @@ std::vector<Opening> openings(const HeatOfWells& heat, int well) {
     for (const HeatOfCells* medium : {&heat.rock, &heat.fractures})
       if (medium->temperature && medium->pressure == around.pressure)
         for (const auto& [cell, share] : around.shares)
-          openings.push_back({k, cell, medium == &heat.fractures, share, share * wells.rate().now()[k],
+          openings.push_back({k, cell, medium == &heat.fractures, share, share * rates[k],
                               medium->temperature->now()[cell]});
   }
   return openings;
@@ -70,13 +70,13 @@ bool HeatOfWells::is_known(const AroundWell& around) const {
          (fractures.temperature && around.pressure == fractures.pressure);
 }
 
-Mixtures HeatOfWells::mixtures() const {
+Mixtures HeatOfWells::mixtures(const Vector& rates) const {
   if (!wells) return {};
   SPREKK_EXPECT(injected.size() == wells->names().size(), injected.size());
   SPREKK_EXPECT(wells->surroundings().size() == wells->places().size(), wells->surroundings().size());
   Mixtures mixtures(injected.size());
   for (std::size_t well = 0; well < mixtures.size(); ++well) {
-    const std::vector<Opening> open = openings(*this, static_cast<int>(well));
+    const std::vector<Opening> open = openings(*this, rates, static_cast<int>(well));
     if (!open.empty()) mixtures[well] = mixture(open, injected[well]);
   }
   return mixtures;

@@ -40,8 +40,9 @@ struct HeatOfWells {
   std::vector<std::optional<double>> injected;  ///< K, of what comes from outside, one a well
 
   bool is_known(const AroundWell& around) const;
-  /// One a well; empty for a well that is open to nothing whose temperature is known.
-  Mixtures mixtures() const;
+  /// One a well; empty for a well that is open to nothing whose temperature is known. `rates`: out of the well at each
+  /// place, m^2/s.
+  Mixtures mixtures(const Vector& rates) const;
   /// Throws DataError where the fluid that a well brings has no temperature. `coupler`: its name.
   void check(const std::string& coupler) const;
   /// Notes wells that let fluid in without a temperature.

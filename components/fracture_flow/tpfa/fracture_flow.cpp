@@ -328,6 +328,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
   for (const Link& link : links_)
     if (link.second == none) sums[3 * link.first + 2] += step.dt * flux_.now()[link.point];
   cumulative_.set(std::move(sums));
+  let_in_of_step_ = let_in_;
 }
 
 void FractureFlow::balance(std::map<std::string, Balance>& balances) const {

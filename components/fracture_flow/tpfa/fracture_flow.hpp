@@ -62,6 +62,8 @@ class FractureFlow : public Component,
   void release_coefficients(double share) override;
   void constrain(Assembly& assembly) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
+  void accepted() override { let_in_of_step_.clear(); }
+  void rewound() override { let_in_of_step_.clear(); }
   void balance(std::map<std::string, Balance>& balances) const override;
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
@@ -258,6 +260,7 @@ class FractureFlow : public Component,
   std::vector<Prescribed> prescribed_;  ///< whole fractures
   std::vector<OpenPoint> injected_points_, prescribed_points_;
   mutable std::vector<double> let_in_;  ///< m^2/s, at each of prescribed_; found when their rows are replaced
+  std::vector<double> let_in_of_step_;  ///< the same as the flow was solved in this step: in the last substep
   double step_length_ = 0;              ///< s
   EnteringDensity entering_density_ = EnteringDensity::of_step;
   std::vector<char> is_prescribed_;  ///< of each cell

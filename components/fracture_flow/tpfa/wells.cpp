@@ -246,8 +246,8 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
   Eigen::Index place = 0;
   for (const auto& [place_name, given] : options_.prescribed) {
     const std::size_t count = given.where.at ? 0 : cells_of(given.where).size();
-    for (std::size_t i = 0; i < count && k < let_in_.size(); ++i, ++k)
-      if (is_owned(mesh_, Location::fracture_cell, prescribed_[k].cell)) rates[place] += let_in_[k];
+    for (std::size_t i = 0; i < count && k < let_in_of_step_.size(); ++i, ++k)
+      if (is_owned(mesh_, Location::fracture_cell, prescribed_[k].cell)) rates[place] += let_in_of_step_[k];
     ++place;
   }
   parallel::sum(rates);
