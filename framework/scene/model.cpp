@@ -81,8 +81,8 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   }
   std::map<std::string, Part*> named;
   for (const auto& component : components_) named[component->name()] = component.get();
-  const ScheduleContext context{mesh_, fields_,          parts_,    std::move(log),
-                                named, scene_.time.step, &growing_, &histories_};
+  const ScheduleContext context{
+      mesh_, fields_, parts_, std::move(log), named, scene_.time.start, scene_.time.step, &growing_, &histories_};
   schedule_ = scene_.schedule(context);
   make_start(context);
   now_doing("the first evaluation of all data");

@@ -61,6 +61,7 @@ ScheduleBuilder read_solve(const Node& node, const ScheduleReading& reading) {
   options.stabilization_origin = stabilize ? stabilize->origin : node.origin;
   options.origin = node.find("solve")->origin;
   options.may_be_inexact = reading.may_be_inexact;
+  options.is_over_substeps = reading.is_over_substeps;
   options.spec().read(node, reading.read);
   check_components(options.components, node, reading);
   if (options.stabilization != "none" && !reading.is_iterated)
@@ -123,6 +124,7 @@ ScheduleBuilder read_iterate(const Node& node, const ScheduleReading& reading) {
     options.has_substeps = has_substeps(*found);
     inner.is_in_stages = reading.is_in_stages || !options.has_substeps;
     inner.may_be_inexact = !options.has_substeps && options.until.bounds_residual();
+    inner.is_over_substeps = options.has_substeps;
   });
   const Node& steps = *found;
   if (options.has_substeps) options.until.require_changes();
@@ -167,6 +169,11 @@ ScheduleBuilder read_subcycle(const Node& node, const ScheduleReading& reading) 
     throw InputError(node.find("subcycle")->origin, "a 'subcycle' stands inside of another one, in an 'iterate'",
                      "passes compare substeps with those of the pass before, one level of them",
                      "multiply the counts of both");
+  const Node* waiting = node.find("subcycle")->find("waiting");
+  if (reading.is_iterated && reading.scheme == TimeScheme::sdirk2 && options.count > 1 && options.waiting == "held")
+    throw InputError(waiting ? waiting->origin : node.find("subcycle")->origin,
+                     "substeps are of first order in time where what waits is held",
+                     "'time: scheme: sdirk2' is of second order", "write 'waiting: linear', or leave 'scheme' out");
   const TimeScheme scheme = takes_stages ? reading.scheme : TimeScheme::backward_euler;
   return [options, inside, scheme](const ScheduleContext& context) {
     ScheduleContext alone = context;

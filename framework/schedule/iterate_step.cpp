@@ -14,6 +14,7 @@
 #include "framework/invariants.hpp"
 #include "framework/schedule/passes/ends_of_passes.hpp"
 #include "framework/schedule/passes/pass_changes.hpp"
+#include "framework/schedule/passes/round_off_of_values.hpp"
 #include "framework/schedule/passes/stalled_acceleration.hpp"
 
 namespace sprekk {
@@ -157,10 +158,27 @@ void IterateStep::choose_scales() {
     if (field->size() > 0)
       l = std::max({l, field->now().lpNorm<Eigen::Infinity>(), field->accepted().lpNorm<Eigen::Infinity>()});
   }
+  constexpr double digits = 1e-8;  // a field with fewer must not hide the changes of others
   for (std::size_t u = 0; u < fields_.size(); ++u) {
-    const double l = largest[fields_[u]->spec().unit];
+    double l = largest[fields_[u]->spec().unit];
+    if (!round_off_.empty() && fields_[u]->size() > 0) l = std::max(l, round_off_[u].maxCoeff() / digits);
     scales_[u] = (l > 0 ? l : 1) * std::sqrt(std::max(1, fields_[u]->size()));
   }
+}
+
+void IterateStep::find_round_off(const StepTime& step) {
+  Assembly assembly(inside_->unknowns(), Assembly::Request::residual_and_derivatives);
+  assemble_all(assembly, parts_, step);
+  const Vector all = round_off_of_values(assembly, system_);
+  round_off_.clear();
+  for (std::size_t u = 0; u < fields_.size(); ++u)
+    round_off_.emplace_back(all.segment(system_.first(static_cast<int>(u)), fields_[u]->size()));
+}
+
+double IterateStep::largest_change(std::size_t field, const Vector& change) const {
+  if (change.size() == 0) return 0;
+  if (round_off_.empty() || !is_finite(change)) return change.lpNorm<Eigen::Infinity>();
+  return std::max(0.0, (change.cwiseAbs() - round_off_[field]).maxCoeff());
 }
 
 double IterateStep::relative_change(const Vector& change, const Vector& before) const {
@@ -174,8 +192,11 @@ double IterateStep::relative_change(const Vector& change, const Vector& before) 
     l = std::max({l, part(before, u), part(before + change, u)});
   }
   double relative = 0;
-  for (std::size_t u = 0; u < fields_.size(); ++u)
-    if (const double l = largest[fields_[u]->spec().unit]; l > 0) relative = std::max(relative, part(change, u) / l);
+  for (std::size_t u = 0; u < fields_.size(); ++u) {
+    const double l = largest[fields_[u]->spec().unit];
+    const auto changed = change.segment(system_.first(static_cast<int>(u)), fields_[u]->size());
+    if (l > 0) relative = std::max(relative, largest_change(u, scales_[u] * changed) / l);
+  }
   return relative;
 }
 
@@ -206,7 +227,7 @@ ResidualCheck IterateStep::check_changes(const std::vector<Vector>& before) cons
   for (std::size_t u = 0; u < fields_.size(); ++u) {
     if (fields_[u]->size() == 0) continue;
     const double scale = largest[fields_[u]->spec().unit];
-    const double change = (fields_[u]->now() - before[u]).lpNorm<Eigen::Infinity>();
+    const double change = largest_change(u, fields_[u]->now() - before[u]);
     check.finite = check.finite && fields_[u]->now().allFinite();
     const double relative = scale > 0 ? change / scale : 0;
     check.of_equations.emplace_back(fields_[u]->name(), relative);
@@ -306,6 +327,7 @@ StepStatus IterateStep::make_passes(const StepTime& step) {
 
     Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
     if (!options_.has_substeps) assemble_all(assembly, parts_, step);
+    if (options_.has_substeps && pass == 1) find_round_off(step);
     change_before = check.largest;
     check = options_.has_substeps ? check_changes(values_before)
                                   : check_residual(assembly, system_, options_.until.tightest());

@@ -35,7 +35,8 @@ struct IterateOptions {
 /// the residual of all equations that are solved inside, without stabilization, is small against their own terms; small
 /// updates do not count. Where steps inside take substeps the equations of a whole step are not fulfilled, and the
 /// estimated error of all fields takes the place of the residual: what a pass changes them by, times ρ/(1 − ρ), with ρ
-/// the factor from the last pass to this one. Passes end early where their changes only grow.
+/// the factor from the last pass to this one; changes by round-off do not count. Passes end early where their changes
+/// only grow.
 ///
 /// Where passes do not converge, the step is solved for all of the unknowns at once, unless the scene says otherwise
 /// (FallbackSolve). Only where that does not converge either is it refused. An iteration over substeps has no such
@@ -49,7 +50,6 @@ class IterateStep : public ScheduleStep, public StepHistory {
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return inside_->unknowns(); }
   int systems_in_turn(const StepTime& step) const override { return std::min(1, inside_->systems_in_turn(step)); }
-  void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
   std::string describe() const override { return "iterate"; }
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
   double largest_imbalance() const override;
@@ -67,6 +67,11 @@ class IterateStep : public ScheduleStep, public StepHistory {
   StepStatus converged(const StepTime& step, const StepStatus& status);
   ResidualCheck coupled_residual(const StepTime& step) const;
   void choose_scales();
+  /// Where steps inside take substeps: what round-off alone may change of the values, by the equations of the whole
+  /// step.
+  void find_round_off(const StepTime& step);
+  /// The largest change of a field beyond round-off; `change`: of its values.
+  double largest_change(std::size_t field, const Vector& change) const;
   void begin_acceleration();
   /// Sets the accelerated fields to the next iterate; `before`: their values before the pass.
   void accelerate(const Vector& before);
@@ -90,6 +95,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   BlockSystem system_;
   IterationLog log_;
   std::vector<double> scales_;                ///< one for each field, from the first pass
+  std::vector<Vector> round_off_;             ///< of each field's values; empty where residuals are looked at
   std::unique_ptr<Accelerator> accelerator_;  ///< nullptr for none
   std::vector<std::size_t> accelerated_;      ///< which of the fields
   Vector acceleration_scale_;                 ///< one for each of their values

@@ -21,6 +21,7 @@ struct ScheduleContext {
   std::vector<Part*> parts;  ///< all components and couplers
   IterationLog log;
   std::map<std::string, Part*> named = {};               ///< the components by their names in the scene
+  double start_time = 0;                                 ///< s, of the run
   double standard_step = 0;                              ///< s
   std::vector<class GrowStep*>* growing = nullptr;       ///< collects the steps that change the mesh
   std::vector<class StepHistory*>* histories = nullptr;  ///< collects the steps that learn from time steps
@@ -43,6 +44,7 @@ struct ScheduleReading {
   bool may_be_inexact = false;     ///< whether the `iterate` around checks the residuals of all equations inside
   double tightest_until = 1;       ///< of the `iterate` around it: its `until: relative`
   bool is_substep = false;         ///< whether it is inside a `subcycle` of several substeps
+  bool is_over_substeps = false;   ///< whether steps of the innermost `iterate` around it take substeps
   bool is_followed = false;        ///< whether a step that solves or grows stands behind it
 };
 /// Makes a step once the model is there.

@@ -160,7 +160,8 @@ std::vector<const Field*> SolveStep::answering() const {
 ResponseOptions SolveStep::wanted_responses() const {
   // Residuals of waiting unknowns may be enlarged many times in the equations of this solve.
   constexpr double settled = 0.1;
-  return {followers(options_.stabilization, parts_, fields_), options_.stabilization == response,
+  const bool is_response = options_.stabilization == response;
+  return {followers(options_.stabilization, parts_, fields_), !is_response, is_response && !options_.is_over_substeps,
           settled * options_.newton.residual};
 }
 
@@ -293,7 +294,8 @@ StepStatus SolveStep::run(const StepTime& step) {
         " (the unknowns that wait are not determined while those of this step are held, so they have no response)";
   if (!status.converged) return status;
   std::vector<Field*> solved = fields_;
-  if (response_)
+  // What is solved for over other steps keeps its values, and its amounts over them.
+  if (response_ && !options_.is_over_substeps)
     for (std::size_t k = 0; k < response_->copied().size(); ++k) {
       solved.push_back(&store_.at(response_->copied()[k]->name()));
       solved.back()->set(response_->copies(step)[k]->now());

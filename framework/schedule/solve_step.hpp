@@ -17,7 +17,8 @@ struct SolveOptions {
   NewtonOptions newton;  ///< those of the scene, with what the step overrides
   LinearOptions linear;
   bool overrides_newton = false, overrides_linear = false;
-  bool may_be_inexact = false;  ///< whether an iteration around the step checks the residuals of its equations
+  bool may_be_inexact = false;    ///< whether an iteration around the step checks the residuals of its equations
+  bool is_over_substeps = false;  ///< whether steps of the iteration around it take substeps
   Spec spec();
 };
 

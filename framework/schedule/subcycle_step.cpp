@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "framework/assembly/follows_stages.hpp"
 #include "framework/invariants.hpp"
@@ -16,7 +18,7 @@ Spec SubcycleOptions::spec() {
               {{"held", "they keep their latest values"},
                {"linear",
                 "they go from their values at the start of the step to the latest ones, which count at its "
-                "end"}},
+                "end; in a step that begins where data jump, and with backward_euler in the first one, they are held"}},
               {.doc = "What the fields that wait do meanwhile."});
   return spec;
 }
@@ -35,7 +37,12 @@ void add_balances(const FieldStore& store, std::vector<Field*>& fields) {
 
 SubcycleStep::SubcycleStep(const SubcycleOptions& options, TimeScheme scheme, std::unique_ptr<ScheduleStep> inside,
                            const ScheduleContext& context)
-    : options_(options), scheme_(scheme), inside_(std::move(inside)), parts_(context.parts), pass_(context.pass) {
+    : options_(options),
+      scheme_(scheme),
+      inside_(std::move(inside)),
+      parts_(context.parts),
+      start_time_(context.start_time),
+      pass_(context.pass) {
   for (const Field* field : inside_->unknowns()) fields_.push_back(&context.fields.at(field->name()));
   solved_ = fields_.size();
   for (const auto& field : context.fields.all())
@@ -75,7 +82,7 @@ std::vector<SubcycleStep::Piece> SubcycleStep::pieces(const StepTime& step) cons
 
 StepStatus SubcycleStep::run(const StepTime& step) {
   Values start;
-  Course course;
+  Course course{options_.waiting == "linear" && !begins_with_jump(step), {}, {}};
   for (const Field* field : fields_) start.push_back(field->accepted());
   for (const Field* field : waiting_) {
     course.from.push_back(field->accepted());
@@ -86,7 +93,7 @@ StepStatus SubcycleStep::run(const StepTime& step) {
     let_parts_take_stages(false);
     SPREKK_ASSERT(start.size() == fields_.size(), start.size(), fields_.size());
     for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i]->set_accepted(start[i]);
-    if (options_.waiting == "held") return;
+    if (!course.is_linear) return;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       waiting_[i]->set(course.to[i]);
       waiting_[i]->set_accepted(course.from[i]);
@@ -110,8 +117,19 @@ void SubcycleStep::let_parts_take_stages(bool are_stages) {
     if (auto* follower = dynamic_cast<FollowsStages*>(part)) follower->take_stages(are_stages);
 }
 
+bool SubcycleStep::begins_with_jump(const StepTime& step) {
+  constexpr double rounding = 1e-9;  // of the step
+  if (!jumps_) {
+    jumps_.emplace();
+    // With one stage, fields that are held cost no order, and loads may be there at once when the run begins.
+    if (scheme_ == TimeScheme::backward_euler) jumps_->push_back(start_time_);
+    for (const Part* part : parts_) std::ranges::copy(part->switch_times(), std::back_inserter(*jumps_));
+  }
+  return std::ranges::any_of(*jumps_, [&](double time) { return std::abs(time - step.start) <= rounding * step.dt; });
+}
+
 void SubcycleStep::let_wait(const Course& course, const Piece& piece) {
-  if (options_.waiting == "held") return;
+  if (!course.is_linear) return;
   SPREKK_ASSERT(course.from.size() == waiting_.size(), course.from.size(), waiting_.size());
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const Vector change = course.to[i] - course.from[i];

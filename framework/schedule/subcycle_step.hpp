@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,10 @@ struct SubcycleOptions {
 };
 
 /// Fields that are not solved for inside wait: they are held at their latest values, or are linear in time, from their
-/// accepted values to the latest ones at the end of the step. After each substep the fields inside, and the cumulative
-/// balances kept of them, are accepted, so that a change of something outside counts once, in the first substep where
-/// it is held. At the end the accepted values of the start are put back: the step as a whole is accepted by the step
-/// controller.
+/// accepted values to the latest ones at the end of the step, unless the step begins with a jump of the data. After
+/// each substep the fields inside, and the cumulative balances kept of them, are accepted, so that a change of
+/// something outside counts once, in the first substep where it is held. At the end the accepted values of the start
+/// are put back: the step as a whole is accepted by the step controller.
 ///
 /// With two stages (TimeScheme::sdirk2) each substep is two of backward Euler. The second one starts from accepted
 /// values that are extrapolated from what the first one has changed, but for fields of which the path counts
@@ -57,8 +58,12 @@ class SubcycleStep : public ScheduleStep {
   };
   /// The course of the waiting fields over the whole step, from its start to its end.
   struct Course {
+    bool is_linear;  ///< otherwise they are held at the end
     Values from, to;
   };
+  /// Whether waiting fields may have jumped at the start of the step: there data jump, or the run begins, with loads
+  /// that are there at once. What lies between their values at both ends then says nothing of their course.
+  bool begins_with_jump(const StepTime& step);
   std::vector<Piece> pieces(const StepTime& step) const;
   StepStatus take(const std::vector<Piece>& pieces, const Course& course);
   /// Tells the parts where the stages of the scheme begin and end (FollowsStages).
@@ -72,6 +77,8 @@ class SubcycleStep : public ScheduleStep {
   TimeScheme scheme_;
   std::unique_ptr<ScheduleStep> inside_;
   std::vector<Part*> parts_;
+  double start_time_;                          ///< s, of the run
+  std::optional<std::vector<double>> jumps_;   ///< s, times at which data jump; found in the first step
   std::vector<Field*> fields_;                 ///< solved for inside, and the cumulative balances kept of them
   std::size_t solved_ = 0;                     ///< how many of them are solved for
   std::vector<Field*> waiting_;                ///< solved for outside, and the cumulative balances kept of them

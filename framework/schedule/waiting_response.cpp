@@ -31,7 +31,7 @@ WaitingResponse::WaitingResponse(const Mesh& mesh, std::vector<const Field*> wai
 }
 
 const std::vector<std::unique_ptr<Field>>& WaitingResponse::copies(const StepTime& step) {
-  if (std::exchange(has_looked_for_copies_, true) || !options_.has_pending) return copies_;
+  if (std::exchange(has_looked_for_copies_, true) || options_.is_named) return copies_;
   const std::unique_ptr<Assembly> all = assemble_with_solved(step);
   for (std::size_t w = 0; w < waiting_.size(); ++w) {
     if (is_bulk(waiting_[w]->spec().role.kind())) continue;
@@ -52,7 +52,7 @@ int WaitingResponse::copy_of(int waiting) const {
 }
 
 void WaitingResponse::set_bounds() {
-  if (options_.has_pending) return;  // these terms are not of a pair that a part names
+  if (!options_.is_named) return;
   for (ResponseTerm& term : responses_.terms)
     for (const Part* part : parts_)
       if (const auto* follows = dynamic_cast<const FollowsWaiting*>(part))

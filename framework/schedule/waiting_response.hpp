@@ -35,6 +35,7 @@ void add_responses(Assembly& assembly, const Responses& responses, const std::ma
 /// For which fields of a solve the Schur complement is added: pairs of row and column.
 struct ResponseOptions {
   std::vector<Following> pairs;
+  bool is_named = true;      ///< by a part, which knows bounds of the changes; fluxes have no copies
   bool has_pending = false;  ///< whether residuals of waiting unknowns count as well
   double settled = 0;        ///< nothing is pending where these residuals are smaller against their own terms
 };
@@ -45,8 +46,9 @@ struct ResponseOptions {
 /// c alone hardly resists; with the term a pass is a step of Newton's method for c. At convergence dc = 0, so the term
 /// changes no answer.
 /// Where more than two systems are solved in turn, W is not zero at the start of a solve: the waiting unknowns will
-/// change by −(dW/dw)^-1 W as well. This is the pending part, which vanishes with convergence, too.
-/// Some of w are fluxes q on interfaces in balances R, which follow from potentials on either side. A change dc of a
+/// change by −(dW/dw)^-1 W as well. This is the pending part, which vanishes with convergence, too. It is left out
+/// where steps of the iteration take substeps: the equations W then hold over other steps than that of the solve. Some
+/// of w are fluxes q on interfaces in balances R, which follow from potentials on either side. A change dc of a
 /// potential has the round-off of c, and with a large dq/dc that of the flux would be more than a balance may miss. So
 /// the solve has unknowns q' for these, with the equation q' = q + (dq/dc) dc + pending, and R contains q' with all of
 /// its digits; what it finds is the new q.

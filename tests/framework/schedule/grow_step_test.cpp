@@ -73,7 +73,8 @@ struct Schedule {
                       .doc = ""});
     ScheduleReading reading;
     reading.component_names = {"rock", "tips"};
-    ScheduleContext context{mesh, fields, {&rock, &tips}, {}, {{"rock", &rock}, {"tips", &tips}}, standard, &growing};
+    ScheduleContext context{mesh, fields,   {&rock, &tips}, {}, {{"rock", &rock}, {"tips", &tips}},
+                            0,    standard, &growing};
     schedule = read_schedule(parse_yaml(text, "scene.yaml"), reading)(context);
   }
 
