@@ -5,6 +5,7 @@
 #include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/invariants.hpp"
+#include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
 
@@ -99,6 +100,12 @@ Spec solver_spec(LinearOptions& options) {
       "condense", options.condense,
       {.doc = "Factorizes the equations of the bulk once for a mesh and a time step, and solves in each iteration "
               "for what is on fractures only. Direct solvers in one process."});
+  spec.check([&options](const Node& node) {
+    if (options.type == "umfpack" && parallel::size() > 1)
+      throw InputError(node.find("type")->origin,
+                       "linear solver 'umfpack' cannot run on " + std::to_string(parallel::size()) + " processes",
+                       "it knows one only", "use 'mumps', 'belos' or 'auto'");
+  });
   return spec;
 }
 

@@ -22,8 +22,8 @@ class Ended:
     seconds: float
 
 
-def run(program, scene, folder, limit, processes=1, more=()):
-    command = [str(program), "run", str(scene), "-o", str(folder), *more]
+def run(program, scene, folder, limit, processes=1, more=(), command="run"):
+    command = [str(program), command, str(scene), *(("-o", str(folder)) if folder else ()), *more]
     if processes > 1:
         command = ["mpirun", "-n", str(processes), *command]
     environment = {**os.environ, **OF_MPI, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1",
@@ -38,4 +38,4 @@ def run(program, scene, folder, limit, processes=1, more=()):
         timed_out = True
         os.killpg(process.pid, signal.SIGKILL)
         _, stderr = process.communicate()
-    return Ended(Path(folder), process.returncode, stderr, timed_out, time.monotonic() - began)
+    return Ended(Path(folder) if folder else None, process.returncode, stderr, timed_out, time.monotonic() - began)

@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "framework/invariants.hpp"
 #include "framework/linear/direct/mumps_solver.hpp"
 #include "framework/linear/direct/umfpack_solver.hpp"
 #include "framework/linear/iterative/belos_solver.hpp"
@@ -62,9 +63,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options) {
   if (options.type == "mumps") return std::make_unique<SummedBalances>(std::make_unique<MumpsSolver>());
   if (options.type == "belos") return std::make_unique<BelosSolver>(options.tolerance, options.max_iterations);
   if (options.type == "umfpack") {
-    if (parallel::size() > 1)
-      throw std::invalid_argument("linear solver 'umfpack' cannot run on " + std::to_string(parallel::size()) +
-                                  " processes (it knows one only) use 'mumps', 'belos' or 'auto'");
+    SPREKK_EXPECT(parallel::size() == 1, "'umfpack' knows one process only; solver_spec refuses it on several");
     return std::make_unique<SummedBalances>(std::make_unique<UmfpackSolver>());
   }
   throw std::invalid_argument("unknown linear solver '" + options.type + "' (there are: auto, umfpack, mumps, belos)");

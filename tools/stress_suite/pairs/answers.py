@@ -2,7 +2,6 @@
 
 import json
 import shutil
-import subprocess
 import threading
 from concurrent.futures import Future
 from dataclasses import dataclass, field
@@ -63,11 +62,12 @@ class Runs:
         folder.mkdir(parents=True, exist_ok=True)
         scene = folder / "scene.yaml"
         scene.write_text(text)
-        checked = subprocess.run([self.program, "check", str(scene)], capture_output=True, text=True, check=False)
-        if checked.returncode == 2:
-            return Answer(refused=checked.stderr.strip().splitlines()[-1].split("scene.yaml", 1)[-1].lstrip(":0123456789 "))
-        if checked.returncode != 0:
-            return Answer(failed=f"check ends with {checked.returncode}: {checked.stderr[-300:]}")
+        checked = runner.run(self.program, scene, None, self.limit, draft.processes, command="check")
+        if checked.code == 2:
+            said = next(line for line in checked.stderr.splitlines() if line.startswith("error: "))
+            return Answer(refused=said.split("scene.yaml", 1)[-1].lstrip(":0123456789 "))
+        if checked.code != 0:
+            return Answer(failed=f"check ends with {checked.code}: {checked.stderr[-300:]}")
         results = folder / "results"
         if draft.restarted:
             half = base.STEP * base.STEPS / 2
