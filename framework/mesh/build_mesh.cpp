@@ -11,7 +11,6 @@
 #include "framework/mesh/cell_edges.hpp"
 #include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/counter_clockwise.hpp"
-#include "framework/mesh/distinct_text.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
@@ -102,8 +101,7 @@ class MeshBuilder {
         const int edge = edges_.find(chain[i], chain[i + 1]);
         if (edge == none) {
           throw InputError("fracture '" + name + "' leaves the edges of the mesh between " +
-                           distinct_text(raw_.nodes[chain[i]], raw_.nodes[chain[i + 1]]) + " and " +
-                           distinct_text(raw_.nodes[chain[i + 1]], raw_.nodes[chain[i]]));
+                           to_text(raw_.nodes[chain[i]]) + " and " + to_text(raw_.nodes[chain[i + 1]]));
         }
         if (edges_.is_outer(edge)) {
           throw InputError("fracture '" + name + "' runs along the outer boundary at " + middle(edge));

@@ -9,10 +9,10 @@
 #include <sstream>
 #include <utility>
 
-#include "framework/mesh/distinct_text.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/mesh/search/segment_tree.hpp"
+#include "framework/meshing/distinct_text.hpp"
 #include "framework/meshing/size_field.hpp"
 
 namespace sprekk {

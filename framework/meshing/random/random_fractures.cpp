@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "framework/mesh/distinct_text.hpp"
 #include "framework/mesh/planar.hpp"
+#include "framework/meshing/distinct_text.hpp"
 #include "framework/meshing/random/random_laws.hpp"
 
 namespace sprekk {
