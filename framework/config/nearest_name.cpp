@@ -43,6 +43,8 @@ std::string only_name_that_begins_with(const std::string& word, const std::vecto
   return result;
 }
 
+/// The names of which the word is a part, or which are a part of it: "water_density" for "density". None if there are
+/// many.
 std::vector<std::string> names_with_part(const std::string& word, const std::vector<std::string>& names) {
   constexpr std::size_t shortest = 3, most = 3;
   const auto has_part = [](const std::string& whole, const std::string& part) {

@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Malformed{"duplicate", "a: 1\nb:\n  c: 1\n  c: 2\n",
                   "s.yaml:4:3: duplicate key 'c' (it stands already at s.yaml:3:3) keep one of them"},
-        Malformed{"bracket", "a: [1, 2\nb: 3\n", "s.yaml:2:2: malformed YAML ("},
+        Malformed{"bracket", "a: [1, 2\nb: 3\n", "s.yaml:1:4: the '[' is never closed ("},
         Malformed{"tab", "a:\n\tb: 1\n", "s.yaml:2:1: malformed YAML (a tab stands in the indentation) use spaces"},
         Malformed{"anchor", "a: *nowhere\n", "s.yaml:1:4: malformed YAML ("},
         Malformed{"itself", "a: &a [1, *a]\n", "s.yaml:1:11: an alias stands inside the value that it repeats"},

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"20", "Pa", "has no unit (needed is pressure, in Pa or another unit of it) write '20 Pa', if that is"},
         Wrong{"45", "rad", "has no unit (needed is angle, in rad or another unit of it) write '45 deg'"},
         Wrong{"+-3", "Pa", "is not a number"}, Wrong{"abc", "", "is not a number (needed is a plain number)"},
-        Wrong{"0x10", "", "unknown unit 'x10'"}, Wrong{"1,5 m", "m", "malformed unit"}));
+        Wrong{"0x10", "", "unknown unit 'x10'"}, Wrong{"1,5 m", "m", "has a decimal comma"}));
 
 TEST(ParseQuantity, survives_hostile_units) {
   EXPECT_THAT(input_error_of([] { parse_quantity("1 " + std::string(100'000, '('), "m", here); }),

@@ -32,8 +32,10 @@ std::string scene_with(const std::string& materials, const std::string& conduit 
 
 std::vector<std::string> notes_of(const std::string& text) {
   const Scene scene = read_scene(parse_yaml(text, "s.yaml"), ".", "scene");
+  Notes found;
+  note_unusual_values(properties_of(scene), found);
   std::vector<std::string> notes;
-  for (const Notes::Note& note : scene.notes.all()) notes.push_back(note.text);
+  for (const Notes::Note& note : found.all()) notes.push_back(note.text);
   return notes;
 }
 
@@ -158,7 +160,12 @@ TEST(UnusualValues, AreNotFoundInTheScenesOfThisProject) {
     const Scene scene =
         read_scene(load_scene({entry.path().string()}, {}), entry.path().parent_path().string(), "scene");
     ++scenes;
-    for (const Notes::Note& note : scene.notes.all())
+    // Made up, so that their closed forms have round numbers; none of them is a rock or a fluid.
+    const std::string name = entry.path().stem().string();
+    if (name == "barry_mercer" || name == "injection_fault" || name == "lauwerier") continue;
+    Notes found;
+    note_unusual_values(properties_of(scene), found);
+    for (const Notes::Note& note : found.all())
       EXPECT_THAT(note.topic, testing::Not(testing::StartsWith("unusual"))) << entry.path() << note.text;
   }
   EXPECT_GT(scenes, 20);
