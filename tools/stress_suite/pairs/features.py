@@ -175,6 +175,24 @@ def crossing(draft):
     draft.components["contact"]["friction"]["fractures"]["cross"] = 0.2
 
 
+def unlike_crossing(draft):
+    """A conductor across a barrier, both of given transmissivity."""
+    crossing(draft)
+    draft.components["conduit"]["law"] = {"type": "constant", "transmissivity": {"fractures": {"main": "8e-11 m^3", "other": "5e-12 m^3",
+                                                                                             "cross": "1e-20 m^3"}}}
+
+
+@feature("physics", "unlike crossing")
+def barrier_across(draft):
+    unlike_crossing(draft)
+
+
+@feature("physics", "crossing through")
+def barrier_is_passed(draft):
+    unlike_crossing(draft)
+    draft.components["conduit"]["crossings"] = {"middle": {"between": ["main", "cross"], "through": "main"}}
+
+
 @feature("physics", "gravity")
 def gravity(draft):
     draft.materials["gravity"] = [f"{g!r} m/s^2" for g in draft.frame.vector(3.0, -9.0)]
