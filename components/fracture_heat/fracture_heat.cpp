@@ -108,6 +108,7 @@ FractureHeat::FractureHeat(const ComponentContext& context, const Options& optio
 }
 
 void FractureHeat::note_input(Notes& notes) const {
+  options_.crossings.note_input(mesh_, name(), notes);
   std::vector<const Data*> given;
   for (const auto& [side, temperature] : options_.boundary) given.push_back(&temperature);
   note_cold(notes, name(), initial_temperature_, given);
@@ -231,8 +232,6 @@ void FractureHeat::balance(std::map<std::string, Balance>& balances) const {
     heat.throughput += cumulative_.now().segment<2>(2 * i).lpNorm<1>();
   }
 }
-
-void FractureHeat::note_input(Notes& notes) const { options_.crossings.note_input(mesh_, name(), notes); }
 
 std::vector<double> FractureHeat::switch_times() const {
   std::vector<const Data*> data;

@@ -30,8 +30,8 @@ std::vector<Opening> openings(const HeatOfWells& heat, const Vector& rates, int 
     for (const HeatOfCells* medium : {&heat.rock, &heat.fractures})
       if (medium->temperature && medium->pressure == around.pressure)
         for (const auto& [cell, share] : around.shares)
-          openings.push_back({k, cell, medium == &heat.fractures, share, share * rates[k],
-                              medium->temperature->now()[cell]});
+          openings.push_back(
+              {k, cell, medium == &heat.fractures, share, share * rates[k], medium->temperature->now()[cell]});
   }
   return openings;
 }

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "framework/config/describe/parameter_text.hpp"
 #include "framework/config/inner_path.hpp"
 #include "framework/config/node_paths.hpp"
-#include "framework/config/describe/parameter_text.hpp"
 #include "framework/config/unknown_key.hpp"
 #include "framework/scene/registry.hpp"
 #include "framework/scene/scene.hpp"

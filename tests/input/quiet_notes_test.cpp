@@ -92,8 +92,9 @@ couplers: [{type: heat_advection, between: [pore, heat], fluid_heat_capacity: 4.
 schedule: [{solve: pore}, {solve: heat}])";
   const std::string at_rest = "initial_pressure: 20 MPa";
   const std::string under_weight = "initial_pressure: \"(2e7 - 9810*y) Pa\", gravity: [0, -9.81 m/s^2]";
-  for (const auto& [pressure, more] :
-       {std::pair(at_rest, heat), {at_rest, "\nschedule: [{solve: pore}]"}, {under_weight, "\nschedule: [{solve: pore}]"}})
+  for (const auto& [pressure, more] : {std::pair(at_rest, heat),
+                                       {at_rest, "\nschedule: [{solve: pore}]"},
+                                       {under_weight, "\nschedule: [{solve: pore}]"}})
     for (const char* type : {"tpfa", "mpfa"})
       EXPECT_EQ(notes_of(fmt::format(R"(
 geometry: {{box: {{x: [0 m, 100 m], y: [-1000 m, 0 m]}}}}
