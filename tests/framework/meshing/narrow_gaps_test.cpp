@@ -140,14 +140,15 @@ TEST(NarrowGaps, WideGapsChangeNothing) {
 }
 
 TEST(NarrowGaps, AreNotWherePolylinesMeet) {
-  // Two of short segments cross, and a third one ends on one of them, at about right angles.
+  // Two of short segments cross, and a third one ends on one of them, at about right angles. They cross in the middle
+  // of segments: a short piece that a crossing cuts off would have shorter edges.
   const auto polyline = [](const std::string& name, const Point& from, const Point& to) {
     FractureGeometry line = fracture(name, {});
     for (int i = 0; i <= 60; ++i) line.points.push_back(from + i / 60.0 * (to - from));
     return line;
   };
   Geometry geometry = box(0, 2, 0, 2);
-  geometry.fractures = {polyline("a", {0.2, 1}, {1.8, 1.03}), polyline("b", {1.003, 0.2}, {1.01, 1.8})};
+  geometry.fractures = {polyline("a", {0.2, 1}, {1.8, 1.03}), polyline("b", {1.0123, 0.2}, {1.0143, 1.8})};
   geometry.fractures.push_back(polyline("c", geometry.fractures[0].points[20], {0.7, 0.3}));
   const MeshOptions options{.size = 0.2, .fracture_size = 0.08};
   MeshOptions off = options;
