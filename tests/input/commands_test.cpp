@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -125,6 +126,13 @@ TEST(Show, IsASceneThatMeansTheSame) {
 }
 
 TEST(Check, AcceptsTheScenesThatComeAlong) {
+  // Scenes that were made up for round numbers, or have units of their own, and a network that encloses small pockets.
+  const std::map<std::string, std::string> notes = {
+      {"barry_mercer", "'permeability' is '1e-2 m^2'"},    {"biot_manufactured", "one without dimensions"},
+      {"complex_network", "'permeability' is '1 m^2'"},    {"hydrocoin", "'viscosity' is '1 Pa*s'"},
+      {"injection_fault", "'fluid_compressibility' is"},   {"lauwerier", "'conductivity' is '2.5e-6 W/(m*K)'"},
+      {"outcrop_network", "enclose 1.7 m^2 with 3 cells"}, {"regular_network", "one without dimensions"},
+      {"single_mode_fracture", "one without dimensions"},  {"terzaghi", "one without dimensions"}};
   const Folder folder;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(config(""))) {
     if (entry.path().extension() != ".yaml") continue;
@@ -135,7 +143,11 @@ TEST(Check, AcceptsTheScenesThatComeAlong) {
     }
     const Outcome outcome = sprekk_command({"check", entry.path().string()}, folder.path());
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.err, "") << entry.path();
+    const auto told = notes.find(entry.path().stem().string());
+    if (told == notes.end())
+      EXPECT_EQ(outcome.err, "") << entry.path();
+    else
+      EXPECT_THAT(outcome.err, HasSubstr(told->second)) << entry.path();
     EXPECT_THAT(outcome.out, HasSubstr(": ok, "));
   }
   EXPECT_TRUE(fs::is_empty(folder.path()));

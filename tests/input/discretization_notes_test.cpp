@@ -77,8 +77,8 @@ TEST(DiscretizationNotes, ASmallAngleOfTheMeshIsTold) {
 TEST(DiscretizationNotes, FlatCellsTellBetweenWhichFracturesTheyLie) {
   // Parallel lines 1e-5 m apart: along x, along y, the mirror image of the first, and along a line between.
   const auto fractured = [](const std::string& crack, const std::string& other) {
-    return run_of("fractured.yaml",
-                  {"geometry.fractures.crack.points=" + crack, "geometry.fractures.other={points: " + other + "}"});
+    return run_of("fractured.yaml", {"geometry.snap=0 m", "geometry.fractures.crack.points=" + crack,
+                                     "geometry.fractures.other={points: " + other + "}"});
   };
   const auto told = [&](const std::string& crack, const std::string& other) {
     const Json note = fractured(crack, other).note("small angle of the mesh");
@@ -107,7 +107,8 @@ TEST(DiscretizationNotes, CellsTooFlatForMpsaAreRefusedWithTheirPlace) {
     const Folder folder;
     const Outcome outcome =
         sprekk_command(call("run", "fractured.yaml",
-                            {"geometry.box={x: [0 m, 2 m], y: [0 m, 2 m]}", "mesh={size: 0.2 m, fracture_size: 50 mm}",
+                            {"geometry.snap=0 m", "geometry.box={x: [0 m, 2 m], y: [0 m, 2 m]}",
+                             "mesh={size: 0.2 m, fracture_size: 50 mm}",
                              std::string("geometry.fractures.crack.points=") + crossing.crack,
                              std::string("geometry.fractures.other={points: ") + crossing.other + "}",
                              "components.conduit.injection.well.at=[1 m, 1 m]"}),

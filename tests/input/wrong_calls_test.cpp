@@ -42,7 +42,7 @@ TEST(SceneFiles, ThatAreNoScenesAreRefused) {
   expect_refused({"check", "empty.yaml"}, {"empty.yaml: the scene is empty"}, folder);
   expect_refused({"check", "binary.yaml"}, {"binary.yaml:1: not a text file"}, folder);
   expect_refused({"check", "latin.yaml"}, {"latin.yaml:1: not a text file", "not UTF-8"}, folder);
-  expect_refused({"check", "missing_half.yaml"}, {"missing_half.yaml:1:1: malformed YAML"}, folder);
+  expect_refused({"check", "missing_half.yaml"}, {"missing_half.yaml:1:7: the '{' is never closed"}, folder);
   expect_refused({"run", "nowhere.yaml", "-o", "results"}, {"cannot be read"}, folder);
 }
 
@@ -61,7 +61,7 @@ TEST(Settings, ThatAreWrongAreRefused) {
   refused("components.pore.viscosity=1 m",
           {"--set components.pore.viscosity: '1 m' for 'viscosity' has the dimension of length"});
   refused("schedule.3.solve=pore", {"--set schedule.3.solve: 'schedule' has no item '3'"});
-  refused("time.end=[1", {"--set time.end:1:1: malformed YAML"});
+  refused("time.end=[1", {"--set time.end:1:1: the '[' is never closed"});
   refused("output.nothing=", {"there is no 'output.nothing' to remove"});
 }
 
@@ -84,7 +84,8 @@ TEST(OutputFolders, ThatCannotBeUsedAreRefused) {
   const Folder folder;
   fs::create_directory(folder / "full");
   std::ofstream(folder / "full/history.csv") << "somebody's results\n";
-  expect_refused({"run", flow, "-o", "full"}, {"the output folder full is not empty", "--restart"}, folder);
+  expect_refused({"run", flow, "-o", "full"}, {"the output folder full is not empty", "choose another one with -o"},
+                 folder);
   expect_refused({"run", flow, "-o", "full/history.csv"}, {"is a file", "choose another name"}, folder);
   expect_refused({"run", flow, "-o", "full/history.csv/results"}, {"cannot be made", "choose another one with -o"},
                  folder);

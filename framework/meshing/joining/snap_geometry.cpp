@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -102,13 +103,13 @@ class Snapper {
     return steps;
   }
 
-  /// Of each step the longest fracture that takes it; of equally long ones the first by name.
+  /// Of each step the longest fracture that takes it; of those as long within the tolerance the first by name.
   void find_owners() {
     std::vector<std::size_t> order;
-    std::vector<double> lengths;
+    std::vector<double> lengths;  // in tolerances
     for (std::size_t f = 0; f < geometry_.fractures.size(); ++f) {
       order.push_back(f);
-      lengths.push_back(length_of(geometry_.fractures[f].points));
+      lengths.push_back(std::round(length_of(geometry_.fractures[f].points) / tolerance_));
     }
     std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
       if (lengths[a] != lengths[b]) return lengths[a] > lengths[b];
