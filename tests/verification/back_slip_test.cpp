@@ -19,7 +19,7 @@ SceneRun sheared_to_and_fro(const std::string& cells = "[8, 8]", const std::stri
       "components: {"
       "rock: {type: poromechanics/mpsa, young_modulus: 10 GPa, poisson_ratio: 0.2, boundary: {"
       "bottom: {displacement: [0 m, 0 m]}, "
-      "top: {displacement_x: '0.002 * sin(6.283185307179586 * t)', displacement_y: -0.5 mm}}}, "
+      "top: {displacement_x: '(0.002 * sin(6.283185307179586 * t)) m', displacement_y: -0.5 mm}}}, "
       "conduit: {type: fracture_flow/tpfa, viscosity: 1.0e-3 Pa*s, fluid_compressibility: 4.0e-11 1/Pa, "
       "initial_aperture: 0.01 mm, transmissivity: constant, transmissivity_value: 1.0e-10 m^3}, "
       "contact: {type: contact/coulomb, friction: 0.4, dilation_angle: 15 deg}}, "

@@ -25,7 +25,7 @@ mesh: {{size: 0.6, fracture_size: 0.4}}
 materials: {{viscosity: 1 Pa*s, permeability: {{along: 1 m^2, across: 0.3 m^2, angle: 20 deg}}, fluid_density: 20 kg/m^3, gravity: [0.3 m/s^2, -1 m/s^2],
   fluid_heat_capacity: 1.3 J/(m^3*K), conductivity: {{xx: 1 W/(m*K), yy: 0.4 W/(m*K)}}, heat_capacity: 0.8 J/(m^3*K)}}
 components:
-  pore: {{type: {}, storage: 0.7 1/Pa, boundary: {{left: {{pressure: "1 + y"}}, right: {{pressure: 1 Pa}}, top: {{flux: 0.1 m/s}}}}}}
+  pore: {{type: {}, storage: 0.7 1/Pa, boundary: {{left: {{pressure: "(1 + y) Pa"}}, right: {{pressure: 1 Pa}}, top: {{flux: 0.1 m/s}}}}}}
   conduit: {{type: fracture_flow/tpfa, fluid_compressibility: 0.1 1/Pa, initial_aperture: 1 m, aperture_floor: 1 mm, boundary: {{left: {{pressure: 1 Pa}}, top: {{pressure: -1 Pa}}}}}}
   heat: {{type: {}, boundary: {{left: {{temperature: 2 K}}, top: {{heat_flux: 0.2 W/m^2}}}}}}
   water: {{type: fracture_heat/tpfa, aperture: 1 m, conductivity: 0.6 W/(m*K), heat_capacity: 0.5 J/(m^3*K), boundary: {{left: {{temperature: 1.5 K}}}}}}

@@ -21,7 +21,7 @@ materials:
   viscosity: 1 Pa*s
   fluid_density: 2 kg/m^3
 components:
-  pore: {type: matrix_flow/mpfa, storage: 0.7 1/Pa, gravity: [0.3 m/s^2, -1 m/s^2], boundary: {left: {pressure: "1 + y"}, top: {flux: 0.1 m/s}}}
+  pore: {type: matrix_flow/mpfa, storage: 0.7 1/Pa, gravity: [0.3 m/s^2, -1 m/s^2], boundary: {left: {pressure: "(1 + y) Pa"}, top: {flux: 0.1 m/s}}}
   rock:
     type: poromechanics/mpsa
     boundary: {left: {displacement_x: 0 m, displacement_y: 0 m}}
@@ -111,12 +111,12 @@ TEST(FlowDerivatives, OfTheLawOfRoughWallsAboveAndBelowItsResidual) {
 
 TEST(FlowDerivatives, OfAGivenTransmissivity) {
   // kappa = 2 K / (mu a^2) depends on the aperture.
-  SceneRun run = SceneRun::from_text(scene("    transmissivity: constant\n    transmissivity_value: 2 + x"));
+  SceneRun run = SceneRun::from_text(scene("    transmissivity: constant\n    transmissivity_value: (2 + x) m^3"));
   expect_derivatives(run, spreads, rows, with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}}));
 }
 
 TEST(FlowDerivatives, OfAGivenNormalPermeability) {
-  SceneRun run = SceneRun::from_text(scene("    normal_permeability: constant\n    normal_permeability_value: 2 + y"));
+  SceneRun run = SceneRun::from_text(scene("    normal_permeability: constant\n    normal_permeability_value: (2 + y) m/(Pa*s)"));
   expect_derivatives(run, spreads, rows, with(of_all_laws, {{"conduit.flux", "conduit.aperture"}}));
 }
 

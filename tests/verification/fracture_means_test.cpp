@@ -24,7 +24,7 @@ components:
     boundary: {{left: {{pressure: 0 Pa}}, right: {{pressure: 0 Pa}}, bottom: {{pressure: 0 Pa}}, top: {{pressure: 0 Pa}}}}}}
   conduit: {{type: fracture_flow/tpfa, viscosity: 1 Pa*s, fluid_compressibility: 0 1/Pa, initial_aperture: 1 m,
     transmissivity: constant, transmissivity_value: 1 m^3, normal_permeability: constant,
-    normal_permeability_value: "{5}*((x-{0})^2+(y-{1})^2)^(-0.25)", boundary: {{right: {{pressure: 1 Pa}}}}}}
+    normal_permeability_value: "({5}*((x-{0})^2+(y-{1})^2)^(-0.25)) m/(Pa*s)", boundary: {{right: {{pressure: 1 Pa}}}}}}
 couplers: [{{type: wall_exchange, between: [pore, conduit]}}]
 schedule: [{{solve: [pore, conduit]}}]
 time: {{end: 1 s, step: 1 s}}
@@ -66,7 +66,7 @@ geometry: {{box: {{x: [0, 1], y: [0, 1]}}, fractures: {{f: {{points: [[0, 0.3], 
 mesh: {{size: 0.6, fracture_size: {}}}
 components:
   conduit: {{type: fracture_flow/tpfa, viscosity: 2 Pa*s, fluid_compressibility: 0 1/Pa, initial_aperture: 1 m,
-    transmissivity: constant, transmissivity_value: sqrt(x), boundary: {{left: {{pressure: 1 Pa}}, right: {{pressure: 4 Pa}}}}}}
+    transmissivity: constant, transmissivity_value: (sqrt(x)) m^3, boundary: {{left: {{pressure: 1 Pa}}, right: {{pressure: 4 Pa}}}}}}
 schedule: [{{solve: conduit}}]
 time: {{end: 1 s, step: 1 s}}
 )scene",

@@ -40,8 +40,8 @@ TEST(Junctions, DivideFlowsLikeAStarOfResistances) {
   // Four arms with other transmissivities and pressures at their ends on the sides.
   SceneRun run =
       SceneRun::from_text(network(cross,
-                                  "fluid_compressibility: 0 1/Pa, transmissivity_value: \"if(abs(y-0.2) < 1e-9, if(x < "
-                                  "0.1, 1, 2), if(y < 0.2, 3, 5))\", boundary: {left: {pressure: 4 Pa}, right: "
+                                  "fluid_compressibility: 0 1/Pa, transmissivity_value: \"(if(abs(y-0.2) < 1e-9, if(x < "
+                                  "0.1, 1, 2), if(y < 0.2, 3, 5))) m^3\", boundary: {left: {pressure: 4 Pa}, right: "
                                   "{pressure: 1 Pa}, bottom: {pressure: -2 Pa}, top: {pressure: 0.5 Pa}}",
                                   "{size: 0.4, fracture_size: 0.1}", thin));
   run.run();
@@ -135,8 +135,8 @@ TEST(Junctions, HoldFluidAtRestUnderGravity) {
 double error_after_one_step(double size) {
   const double compressibility = 0.5;
   SceneRun run = SceneRun::from_text(network("{a: {points: [[-1, 0], [0.9, 0]]}, b: {points: [[0, -0.9], [0, 0.9]]}}",
-                                             "fluid_compressibility: 0.5 1/Pa, transmissivity_value: \"if(abs(x) < "
-                                             "1e-9, 2e-9, 1e-9)\", boundary: {left: {pressure: 1 Pa}}",
+                                             "fluid_compressibility: 0.5 1/Pa, transmissivity_value: \"(if(abs(x) < "
+                                             "1e-9, 2e-9, 1e-9)) m^3\", boundary: {left: {pressure: 1 Pa}}",
                                              "{size: 0.4, fracture_size: " + fmt::format("{}", size) + "}", "1e-9 m"));
   run.run();
   const auto length = [&](double transmissivity) { return std::sqrt(transmissivity / compressibility); };

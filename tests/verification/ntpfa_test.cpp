@@ -47,7 +47,7 @@ struct Errors {
 /// Steady flow with the pressure 1 + sin(pi x) sin(pi y), with the source that it needs.
 Errors manufactured_errors(const Rock& rock, const std::string& mesh_text) {
   const Tensor k = rock.tensor();
-  const std::string exact = "1 + sin(pi*x)*sin(pi*y)";
+  const std::string exact = "(1 + sin(pi*x)*sin(pi*y)) Pa";
   SceneRun run = SceneRun::from_text(fmt::format(
       R"(
 geometry: {{box: {{x: [0 m, 1 m], y: [0 m, 1 m]}}}}
@@ -58,7 +58,7 @@ components:
     permeability: {{along: 1 m^2, across: {1} m^2, angle: {2} deg}}
     viscosity: 1 Pa*s
     storage: 0 1/Pa
-    source: pi^2*({3:.16g}*sin(pi*x)*sin(pi*y) - {4:.16g}*cos(pi*x)*cos(pi*y))
+    source: (pi^2*({3:.16g}*sin(pi*x)*sin(pi*y) - {4:.16g}*cos(pi*x)*cos(pi*y))) 1/s
     boundary: {{left: {{pressure: {5}}}, right: {{pressure: {5}}}, bottom: {{pressure: {5}}}, top: {{pressure: {5}}}}}
 schedule: [{{solve: pore}}]
 time: {{end: 1 s, step: 1 s}}
@@ -199,7 +199,7 @@ components:
     permeability: {{along: 1 m^2, across: 1e-3 m^2, angle: 67.5 deg}}
     viscosity: 1 Pa*s
     storage: 1 1/Pa
-    initial_pressure: if(x < 0.5, 1, 0)
+    initial_pressure: (if(x < 0.5, 1, 0)) Pa
 schedule: [{{solve: pore}}]
 newton: {{at_most: 100}}
 time: {{end: {2} s, step: {1} s}}
@@ -229,7 +229,7 @@ components:
     permeability: {{along: {2:.17g} m^2, across: 1e-2 m^2, angle: {1} deg}}
     viscosity: 1 Pa*s
     storage: 1 1/Pa
-    initial_pressure: if(x < 0.5, 1, 0)
+    initial_pressure: (if(x < 0.5, 1, 0)) Pa
 schedule: [{{solve: pore}}]
 time: {{end: 400 s, step: 100 s}}
 )",

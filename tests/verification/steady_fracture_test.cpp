@@ -23,7 +23,7 @@ components:
          (with_rock ? R"(
   pore:
     type: matrix_flow/mpfa
-    boundary: {left: {pressure: "(2 - x/(10))*1e6"}, right: {pressure: 1 MPa}}
+    boundary: {left: {pressure: "((2 - x/(10))*1e6) Pa"}, right: {pressure: 1 MPa}}
 couplers: [{type: wall_exchange, between: [pore, conduit]}]
 schedule: [{solve: [pore, conduit]}]
 )"

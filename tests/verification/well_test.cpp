@@ -37,7 +37,7 @@ time: {end: 10 day, step: 1 day}
 /// lens takes up what diffuses into it, sqrt(c t) = 5 mm deep with c = k/(mu S).
 TEST(Well, DoesNotFeedTheRockBesideIt) {
   for (const char* permeability :
-       {"{regions: {rock: 1e-14 m^2, lens: 1e-24 m^2}}", "if(x > 4 && x < 6, 1e-24, 1e-14)"}) {
+       {"{regions: {rock: 1e-14 m^2, lens: 1e-24 m^2}}", "(if(x > 4 && x < 6, 1e-24, 1e-14)) m^2"}) {
     SceneRun run = SceneRun::from_text(scene(permeability));
     run.run();
     double rock = 0, lens = 0;

@@ -1,6 +1,8 @@
 // Mesh files whose cells do not fit together are refused with the places.
 #include <gmsh.h>
 
+#include <unistd.h>
+
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -45,7 +47,7 @@ struct Cells {
   }
 
   RawMesh read(std::vector<std::string>* notes = nullptr, double angle = 0) const {
-    const std::string file = testing::TempDir() + "sprekk_conforming_mesh.msh";
+    const std::string file = testing::TempDir() + "sprekk_conforming_mesh_" + std::to_string(getpid()) + ".msh";
     std::ofstream out(file);
     out.precision(17);
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n" << groups.size() << '\n';
@@ -202,7 +204,7 @@ void write_cracks(const std::string& file, double version, bool is_cut, bool rea
 }
 
 TEST(ConformingMesh, CracksOfGmshAreFractures) {
-  const std::string file = testing::TempDir() + "sprekk_crack.msh";
+  const std::string file = testing::TempDir() + "sprekk_crack_" + std::to_string(getpid()) + ".msh";
   for (const double version : {2.2, 4.1})
     for (const bool reaches_side : {false, true}) {
       write_cracks(file, version, false, reaches_side);
