@@ -116,7 +116,8 @@ TEST(FlowDerivatives, OfAGivenTransmissivity) {
 }
 
 TEST(FlowDerivatives, OfAGivenNormalPermeability) {
-  SceneRun run = SceneRun::from_text(scene("    normal_permeability: constant\n    normal_permeability_value: (2 + y) m/(Pa*s)"));
+  SceneRun run =
+      SceneRun::from_text(scene("    normal_permeability: constant\n    normal_permeability_value: (2 + y) m/(Pa*s)"));
   expect_derivatives(run, spreads, rows, with(of_all_laws, {{"conduit.flux", "conduit.aperture"}}));
 }
 

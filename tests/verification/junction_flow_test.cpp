@@ -38,12 +38,12 @@ std::string in_rock(const std::string& fractures, const std::string& conduit, co
 
 TEST(Junctions, DivideFlowsLikeAStarOfResistances) {
   // Four arms with other transmissivities and pressures at their ends on the sides.
-  SceneRun run =
-      SceneRun::from_text(network(cross,
-                                  "fluid_compressibility: 0 1/Pa, transmissivity_value: \"(if(abs(y-0.2) < 1e-9, if(x < "
-                                  "0.1, 1, 2), if(y < 0.2, 3, 5))) m^3\", boundary: {left: {pressure: 4 Pa}, right: "
-                                  "{pressure: 1 Pa}, bottom: {pressure: -2 Pa}, top: {pressure: 0.5 Pa}}",
-                                  "{size: 0.4, fracture_size: 0.1}", thin));
+  SceneRun run = SceneRun::from_text(
+      network(cross,
+              "fluid_compressibility: 0 1/Pa, transmissivity_value: \"(if(abs(y-0.2) < 1e-9, if(x < "
+              "0.1, 1, 2), if(y < 0.2, 3, 5))) m^3\", boundary: {left: {pressure: 4 Pa}, right: "
+              "{pressure: 1 Pa}, bottom: {pressure: -2 Pa}, top: {pressure: 0.5 Pa}}",
+              "{size: 0.4, fracture_size: 0.1}", thin));
   run.run();
   struct Arm {
     Point direction;

@@ -23,7 +23,7 @@ SceneRun under_suction(bool is_mirrored, double load) {
       "viscosity: 4.0e-3 Pa*s, fluid_compressibility: 1.0e-10 1/Pa, friction: 1.4, dilation_angle: 17 deg}}, "
       "components: {{pore: {{type: matrix_flow/mpfa, storage: 0 1/Pa, boundary: {{{}: {{pressure: 0 Pa}}}}}}, "
       "rock: {{type: poromechanics/mpsa, boundary: {{{}: {{displacement_x: 0}}, bottom: {{displacement_y: 0}}, "
-      "{}: {{normal_stress: '-1e7 * {:.10f} * cos(6.283185307179586 * t / 8e-6)'}}, top: {{normal_stress: -1.5 "
+      "{}: {{normal_stress: '(-1e7 * {:.10f} * cos(6.283185307179586 * t / 8e-6)) Pa'}}, top: {{normal_stress: -1.5 "
       "MPa}}}}}}, "
       "conduit: {{type: fracture_flow/tpfa, initial_aperture: 0.015 mm}}, contact: {{type: contact/coulomb}}}}, "
       "couplers: [{{type: biot, between: [pore, rock]}}, {{type: wall_exchange, between: [pore, conduit]}}, "

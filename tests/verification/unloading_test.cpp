@@ -22,7 +22,7 @@ std::string scene(double pressure, double angle, int cells, double dilation, con
       "{{displacement_y: 0 m, traction_x: {5:.17g} Pa}}, right: {{traction: [{2:.17g} Pa, {4:.17g} Pa]}}, top: "
       "{{traction: [{4:.17g} Pa, {3:.17g} Pa]}}}}}}, conduit: {{type: fracture_flow/tpfa, viscosity: 1.0e-4 Pa*s, "
       "fluid_compressibility: 4.0e-10 1/Pa, initial_aperture: 1 mm, prescribed: {{everywhere: {{fracture: main, "
-      "pressure: '12e6 + ({6:.17g} * 1e6 - 12e6) * max(0, t - 1)'}}}}}}, contact: {{type: contact/{8}, "
+      "pressure: '(12e6 + ({6:.17g} * 1e6 - 12e6) * max(0, t - 1)) Pa'}}}}}}, contact: {{type: contact/{8}, "
       "friction: 0.5, dilation_angle: {7} deg}}}}, couplers: [{{type: wall_traction, between: [rock, contact, "
       "conduit]}}], schedule: [{{solve: [rock, conduit, contact]}}], time: {{end: 2 s, step: 1 s}}}}",
       angle, 0.1 / cells * (1 + 1e-9), xx, yy, xy, -xy, pressure, dilation, type);

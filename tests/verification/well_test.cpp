@@ -57,7 +57,7 @@ TEST(Well, DoesNotFeedTheRockBesideIt) {
 /// the permeability the rock is of the same kind.
 TEST(Well, FeedsRockOfAlmostThePermeabilityOfItsCell) {
   for (const auto& [ratio, is_fed] : {std::pair{"1.9", true}, {"1/1.9", true}, {"2.1", false}, {"1/2.1", false}}) {
-    std::string text = scene(std::string("1e-30*if(x > 4 && x < 6, ") + ratio + ", 1)");
+    std::string text = scene(std::string("(1e-30*if(x > 4 && x < 6, ") + ratio + ", 1)) m^2");
     text.replace(text.find("10 day, step: 1 day"), 19, "1 s, step: 1 s");
     text.erase(text.find("  regions:"), text.find("mesh:") - text.find("  regions:"));
     SceneRun run = SceneRun::from_text(text);
