@@ -122,13 +122,13 @@ TEST(FlowDerivatives, OfAGivenNormalPermeability) {
 }
 
 TEST(FlowDerivatives, OfWallsOfDifferentNormalPermeability) {
-  SceneRun run = SceneRun::from_text(scene("    wall_permeability: {left: 2 + y}"));
+  SceneRun run = SceneRun::from_text(scene("    wall_permeability: {left: (2 + y) m/(Pa*s)}"));
   expect_derivatives(run, spreads, rows,
                      with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
 }
 
 TEST(FlowDerivatives, OfInertia) {
-  for (const char* law : {"type: cubic, inertia: 3 + x", "type: cubic, inertia: 300 1/m, residual: 0.9 m",
+  for (const char* law : {"type: cubic, inertia: (3 + x) 1/m", "type: cubic, inertia: 300 1/m, residual: 0.9 m",
                           "type: rough, roughness: 0.4 m, inertia: 20 1/m"}) {
     SceneRun run = SceneRun::from_text(scene(std::string("    law: {") + law + "}"));
     expect_derivatives(
