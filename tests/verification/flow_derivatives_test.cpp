@@ -135,7 +135,7 @@ TEST(FlowDerivatives, OfInertia) {
         run, spreads, rows,
         with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
   }
-  SceneRun run = SceneRun::from_text(scene("    law: {type: constant, transmissivity: 2 + x, inertia: 3 1/m}"));
+  SceneRun run = SceneRun::from_text(scene("    law: {type: constant, transmissivity: (2 + x) m^3, inertia: 3 1/m}"));
   expect_derivatives(run, spreads, rows, with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}}));
 }
 
