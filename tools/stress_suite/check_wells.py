@@ -67,6 +67,13 @@ def cell_around(p, well, instant):
     return int(np.argmin(distances)), True
 
 
+def cells_beside(cells, cell):
+    """The numbers of the cells in two rings around one, itself among them: in twisted meshes the centres of the first ring do not
+    surround every point of the cell."""
+    ring = np.isin(cells, cells[cell]).any(axis=1)
+    return np.flatnonzero(np.isin(cells, cells[ring]).any(axis=1))
+
+
 def exchange(p, instants, history):
     """Rates are those of the index and the pressures around."""
     found = []
@@ -80,11 +87,13 @@ def exchange(p, instants, history):
             cell, in_fracture = cell_around(p, well, instant)
             row = int(np.argmin(abs(times - instant.time)))
             pressure, q = column(history, name, "pressure", "Pa")[row], column(history, name, "rate", "m^2/s")[row]
-            around = (instant.on_fractures("conduit.pressure", "Pa") if in_fracture else instant.cell("pore.pressure[Pa]"))[cell]
+            pressures = (instant.on_fractures("conduit.pressure", "Pa") if in_fracture else instant.cell("pore.pressure[Pa]"))
+            # A well acts at its point: beside it is a mean of the pressures in the cells that surround the point.
+            around = pressures[cells_beside((instant.fractures if in_fracture else instant.matrix).cells, cell)]
             drop = 0.0 if index is None else q / index
             allowed = some_pressure + (0.0 if index is None else PRECISION * abs(drop) + some_rate / index)
-            if abs(pressure - around - drop) > allowed:
-                found.append(f"well: {name} has {pressure:.9g} Pa beside {around:.9g} Pa, with a drop of {drop:.3g} Pa by its index, at t = {instant.time:.6g} s")
+            if not around.min() - allowed <= pressure - drop <= around.max() + allowed:
+                found.append(f"well: {name} has {pressure:.9g} Pa beside {around.min():.9g} to {around.max():.9g} Pa, with a drop of {drop:.3g} Pa by its index, at t = {instant.time:.6g} s")
     return found
 
 
