@@ -103,7 +103,7 @@ class FixedStressModulus(unittest.TestCase):
                     rows = self.iterated(
                         "terzaghi", f"biot_coefficient: 1, fixed_stress_value: {stabilization} 1/Pa", 1e-6, f"components.rock.type=poromechanics/{rock}",
                         f"components.pore.storage={storage!r} 1/Pa", f"components.pore.permeability={mobility} m^2",
-                        f"components.pore.initial_pressure='sin({q!r}*y)'", "mesh.cells=[2, 80]", "components.rock.boundary.bottom.normal_stress=0 Pa",
+                        f"components.pore.initial_pressure='(sin({q!r}*y)) Pa'", "mesh.cells=[2, 80]", "components.rock.boundary.bottom.normal_stress=0 Pa",
                         f"time.end={step} s")
                     changes = [float(row["update[1]"]) for row in rows[1:]]
                     factors = [after / before for before, after in zip(changes, changes[1:])][1:4]

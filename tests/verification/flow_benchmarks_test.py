@@ -30,7 +30,8 @@ class FlowBenchmarks(SceneRuns):
             results = self.run_scene(self.turned(whole, turn[0], mirror=turn[1]))
         else:
             results = self.run_scene(scene, "output.fields=false", f"output.probes={{{probes}}}", *settings, processes=processes)
-        topics = {note["topic"] for note in results.record["notes"]} - {"too few unknowns for several processes"}
+        # The benchmarks have units of their own.
+        topics = {note["topic"] for note in results.record["notes"] if not note["topic"].startswith("unusual")} - {"too few unknowns for several processes"}
         if name != "outcrop_network":  # which has pockets and sharp angles
             self.assertEqual(topics, set())
         return np.array([results.history[f"p{i}[Pa]"][-1] for i in range(len(places))]), results

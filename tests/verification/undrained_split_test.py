@@ -48,7 +48,7 @@ class UndrainedSplit(SceneRuns):
                 moved = mobility * STEP * q ** 2
                 rate = ALPHA ** 2 * moved / ((storage + moved) * (storage * P_WAVE + ALPHA ** 2))
                 run = self.run_scene(
-                    TERZAGHI, f"components.rock.type=poromechanics/{rock}", f"components.pore.initial_pressure='sin({q!r}*y)'",
+                    TERZAGHI, f"components.rock.type=poromechanics/{rock}", f"components.pore.initial_pressure='(sin({q!r}*y)) Pa'",
                     f"components.pore.storage={storage} 1/Pa", f"components.pore.permeability={mobility} m^2", "mesh.cells=[2, 80]",
                     "components.rock.boundary.bottom.normal_stress=0 Pa", f"time.end={STEP} s", iterated(UNDRAINED, 1e-3))
                 changes = self.changes(run)
