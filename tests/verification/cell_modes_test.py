@@ -42,7 +42,7 @@ class CellModes(SceneRuns):
         square = math.sin(quarter_waves * math.pi / (4 * CELLS)) ** 2
         by_cells, directly, moved = COUPLED * (1 - square), COUPLED * square, mobility * STEP * 4 * square * CELLS**2
         steps = DRAINED.format(", stabilize: fixed_stress" if stabilization else "")
-        found = self.factors(steps, f"sin({quarter_waves * math.pi / 2!r}*y)",
+        found = self.factors(steps, f"(sin({quarter_waves * math.pi / 2!r}*y)) Pa",
                              f"components.pore.permeability={mobility} m^2", f"components.pore.storage={storage} 1/Pa",
                              "components.rock.boundary.bottom.normal_stress=0 Pa",
                              *((f"couplers.0.fixed_stress_value={stabilization} 1/Pa",) if stabilization else ()))
@@ -68,7 +68,7 @@ class CellModes(SceneRuns):
             square = math.sin(half_waves * math.pi / (2 * CELLS)) ** 2
             by_cells, directly, moved = COUPLED * (1 - square), COUPLED * square, mobility * STEP * 4 * square * CELLS**2
             theory = by_cells * (directly + moved) / ((storage + directly + moved) * (storage + by_cells))
-            found = self.factors("{solve: rock, stabilize: undrained}, {solve: pore}", f"cos({half_waves * math.pi!r}*y)",
+            found = self.factors("{solve: rock, stabilize: undrained}, {solve: pore}", f"(cos({half_waves * math.pi!r}*y)) Pa",
                                  f"components.pore.permeability={mobility} m^2", f"components.pore.storage={storage} 1/Pa", "components.pore.boundary=null",
                                  "components.rock.boundary={left: {displacement_x: 0 m}, right: {displacement_x: 0 m}, "
                                  "top: {displacement_y: 0 m}, "
