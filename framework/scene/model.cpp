@@ -314,7 +314,10 @@ void Model::refuse_losses(const std::map<std::string, Balance>& before, const St
   if (std::isinf(tolerance)) return;
   const std::map<std::string, Balance> after = balances();
   const std::string lost = find_lost_amounts(before, after, tolerance, [&](const std::string& quantity) {
-    return amounts_of(quantity, mesh_, schedule_->unknowns(), parts_, step, after.at(quantity).outflow != 0);
+    StepAmounts amounts =
+        amounts_of(quantity, mesh_, schedule_->unknowns(), parts_, step, after.at(quantity).outflow != 0);
+    amounts.round_off *= schedule_->summed_errors();
+    return amounts;
   });
   if (lost.empty()) return;
   status.converged = false;

@@ -65,6 +65,13 @@ class ScheduleStep {
     for (const ScheduleStep* child : children()) largest = std::max(largest, child->largest_imbalance());
     return largest;
   }
+  /// How many times as large as the error of one solve the error of an amount over the step may be: solves inside that
+  /// follow one another each add theirs.
+  virtual double summed_errors() const {
+    double largest = 1;
+    for (const ScheduleStep* child : children()) largest = std::max(largest, child->summed_errors());
+    return largest;
+  }
   /// One line for the graph and for messages.
   virtual std::string describe() const = 0;
   virtual std::vector<const ScheduleStep*> children() const { return {}; }

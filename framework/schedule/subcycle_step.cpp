@@ -111,6 +111,11 @@ StepStatus SubcycleStep::run(const StepTime& step) {
   return status;
 }
 
+double SubcycleStep::summed_errors() const {
+  const double of_stages = scheme_ == TimeScheme::backward_euler ? 1 : sdirk2_extrapolation + 1;
+  return options_.count * of_stages * inside_->summed_errors();
+}
+
 void SubcycleStep::let_parts_take_stages(bool are_stages) {
   if (scheme_ == TimeScheme::backward_euler) return;  // substeps of a stage around it start where the stage does
   for (Part* part : parts_)

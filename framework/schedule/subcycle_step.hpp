@@ -43,6 +43,7 @@ class SubcycleStep : public ScheduleStep {
   std::vector<const Field*> solved_first(const StepTime& step) const override { return inside_->solved_first(step); }
   void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
   double largest_imbalance() const override { return inside_->largest_imbalance(); }
+  double summed_errors() const override;
   std::string describe() const override;
   std::vector<const ScheduleStep*> children() const override;
   void note_step(Notes& notes, const StepTime& step) const override { inside_->note_step(notes, step); }

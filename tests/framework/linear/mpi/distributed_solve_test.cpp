@@ -105,12 +105,6 @@ TEST(SummedBalances, HoldsTheLevelAcrossProcesses) {
             1e-9 * problem.solution().head(30).lpNorm<Eigen::Infinity>());
 }
 
-TEST(MakeLinearSolver, RefusesUmfpackOnSeveralProcesses) {
-  LinearOptions options;
-  options.type = "umfpack";
-  EXPECT_THROW(make_linear_solver(options), std::invalid_argument);
-}
-
 TEST(Parallel, SumsMaximaAndGathersInOrderOfRank) {
   const int rank = parallel::rank(), size = parallel::size();
   ASSERT_GT(size, 1);
