@@ -116,7 +116,7 @@ class FrictionalContact : public Component,
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
   /// Walls that weaken and have slipped or opened in this step (runaway.cpp).
-  bool has_softened() const override;
+  Softened softened() const override;
   /// The slip of cells that slip, and the opening of cells that part against their tensile strength.
   FreeValues free_values() const override;
   std::string tell_loss(const LossOfStability& loss) const override;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/contact/frictional_contact.hpp"
 #include "components/contact/trial_state.hpp"
@@ -27,19 +28,42 @@ Nucleus nucleus_around(const Mesh& mesh, int cell, const std::vector<char>& move
   return nucleus;
 }
 
+/// The loss of strength over slip, Pa/m, under this normal traction, and over opening.
+double lost_by_slip(const Strength& strength, double normal) {
+  return strength.friction_by_path * normal - strength.cohesion_by_path;
+}
+double lost_by_opening(const Strength& strength) { return -strength.tension_by_path; }
+
 }  // namespace
 
-bool FrictionalContact::has_softened() const {
+Softened FrictionalContact::softened() const {
   constexpr double least = 1e-9;  // of the distance over which strength is lost
-  if (!path_) return false;
+  Softened softened{{&traction_, &jump_, {}, {}}};
+  if (!path_) return softened;
+  const FreeValues free = free_values();
+  std::vector<double> factors;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (!is_on_fracture_cell(i) || is_bonded(i)) continue;
-    const double before = path_->accepted()[i];
-    const Strength strength = weakening_.at(friction_[i], dynamic_friction(i), before);
-    if (strength.friction_by_path == 0 && strength.cohesion_by_path == 0 && strength.tension_by_path == 0) continue;
-    if (path(i, gap(i, traction_.now(), jump_.now())) - before > least * weakening_.distance) return true;
+    const Strength strength = weakening_.at(friction_[i], dynamic_friction(i), path_->accepted()[i]);
+    const Trial t = trial(i);
+    const double normal = std::min({0.0, t.normal, traction_.accepted()[dimension * i]});
+    for (int k = 0; k < dimension; ++k) {
+      const double lost = k == 0 ? lost_by_opening(strength) : lost_by_slip(strength, normal);
+      const double moved = jump_.now()[dimension * i + k] - jump_.accepted()[dimension * i + k];
+      if (lost <= 0 || std::abs(moved) <= least * weakening_.distance) continue;
+      const auto place = std::ranges::lower_bound(free.values, dimension * i + k);
+      if (place == free.values.end() || *place != dimension * i + k) {
+        softened.spent = std::numeric_limits<double>::infinity();
+        continue;
+      }
+      softened.values.values.push_back(*place);
+      factors.push_back(free.factors[place - free.values.begin()]);
+      if (lost > (k == 0 ? lost_by_opening(t.strength) : lost_by_slip(t.strength, normal)))
+        softened.spent = std::max(softened.spent, lost);
+    }
   }
-  return false;
+  softened.values.factors = Eigen::Map<const Vector>(factors.data(), std::ssize(factors));
+  return softened;
 }
 
 FreeValues FrictionalContact::free_values() const {
@@ -72,9 +96,7 @@ std::string FrictionalContact::tell_loss(const LossOfStability& loss) const {
     moves[i] = 1;
     const Trial t = trial(i);
     const bool is_opening = loss.values[k] % dimension == 0;
-    const double lost = is_opening
-                            ? -t.strength.tension_by_path
-                            : t.strength.friction_by_path * std::min(0.0, t.normal) - t.strength.cohesion_by_path;
+    const double lost = is_opening ? lost_by_opening(t.strength) : lost_by_slip(t.strength, std::min(0.0, t.normal));
     const double share = mesh_.fracture_cells[i].measure * loss.motion[k] * loss.motion[k];
     weakening += share * lost;
     weight += share;

@@ -17,6 +17,14 @@ struct FreeValues {
   Vector factors;                 ///< of each: its equation's residual under a unit of force that drives the value
 };
 
+/// What has lost strength from the accepted state to the present one.
+struct Softened {
+  FreeValues values;  ///< those that have lost some, and are free to move
+  /// The largest loss of strength over motion of a value that has moved and loses less by now; infinite where one moves
+  /// no longer.
+  double spent = 0;
+};
+
 /// A loss of stability: with the stiffness of everything else condensed to the free values, less what they lose in
 /// strength as they move, there is a motion that needs no force.
 struct LossOfStability {
@@ -31,8 +39,8 @@ struct LossOfStability {
 class Softening {
  public:
   virtual ~Softening() = default;
-  /// Whether places have lost strength from the accepted state to the present one. The same on all processes.
-  virtual bool has_softened() const = 0;
+  /// The same on all processes.
+  virtual Softened softened() const = 0;
   /// At the present values of the fields.
   virtual FreeValues free_values() const = 0;
   /// Where and why motion has run away, for the message that ends a run, at the values at which this has been found.

@@ -34,51 +34,94 @@ Vector first_vector(Eigen::Index size) {
   return v.normalized();
 }
 
+/// Arnoldi's method for M^-1: its Hessenberg matrix over an orthonormal basis, one back-solve a vector.
+class Arnoldi {
+ public:
+  Arnoldi(LinearSolver& solver, const std::vector<int>& rows, int size, const CondensedUnknowns& unknowns)
+      : solver_(solver), rows_(rows), unknowns_(unknowns), n_(unknowns.factors.size()) {
+    SPREKK_EXPECT(unknowns.rows.size() == unknowns.columns.size() && std::ssize(unknowns.rows) == n_,
+                  unknowns.rows.size(), unknowns.columns.size(), n_);
+    for (Eigen::Index i = 0; i < n_; ++i)
+      SPREKK_EXPECT(is_index(unknowns.rows[i], size) && is_index(unknowns.columns[i], size), unknowns.rows[i], size);
+    constexpr Eigen::Index most = 40;  // vectors
+    const Eigen::Index vectors = std::min(n_, most);
+    basis_.resize(n_, vectors);
+    hessenberg_ = Eigen::MatrixXd::Zero(vectors, vectors);
+    if (n_ > 0) basis_.col(0) = first_vector(n_);
+  }
+
+  /// Whether the vectors span an invariant subspace, or there may be no more of them.
+  bool is_at_end() const { return is_invariant_ || used_ == basis_.cols(); }
+
+  /// One vector more. False where the solver fails.
+  bool extend() {
+    constexpr double invariant = 1e-12;  // what is left of a vector in an invariant subspace
+    if (used_ > 0) {
+      hessenberg_(used_, used_ - 1) = left_;
+      basis_.col(used_) = next_ / left_;
+    }
+    if (!apply_inverse(solver_, rows_, unknowns_, basis_.col(used_), next_)) return false;
+    const double length = next_.norm();
+    for (int twice = 0; twice < 2; ++twice) {
+      const Vector parts = basis_.leftCols(used_ + 1).transpose() * next_;
+      hessenberg_.col(used_).head(used_ + 1) += parts;
+      next_ -= basis_.leftCols(used_ + 1) * parts;
+    }
+    left_ = next_.norm();
+    ++used_;
+    is_invariant_ = left_ <= invariant * length || used_ == n_;
+    if (is_invariant_) left_ = 0;
+    return true;
+  }
+
+  std::vector<RealEigenpair> pairs() const { return real_eigenpairs(hessenberg_.topLeftCorner(used_, used_)); }
+  double residual(const RealEigenpair& pair) const { return left_ * std::abs(pair.vector[used_ - 1]); }
+  Vector vector(const RealEigenpair& pair) const { return basis_.leftCols(used_) * pair.vector; }
+
+ private:
+  LinearSolver& solver_;
+  const std::vector<int>& rows_;
+  const CondensedUnknowns& unknowns_;
+  Eigen::Index n_, used_ = 0;
+  Eigen::MatrixXd basis_, hessenberg_;
+  Vector next_;
+  double left_ = 0;
+  bool is_invariant_ = false;
+};
+
 }  // namespace
 
 std::optional<CondensedEigenpair> negative_eigenpair(LinearSolver& solver, const std::vector<int>& rows, int size,
                                                      const CondensedUnknowns& unknowns) {
-  const Eigen::Index n = unknowns.factors.size();
-  SPREKK_EXPECT(unknowns.rows.size() == unknowns.columns.size() && static_cast<Eigen::Index>(unknowns.rows.size()) == n,
-                unknowns.rows.size(), unknowns.columns.size(), n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    SPREKK_EXPECT(is_index(unknowns.rows[i], size) && is_index(unknowns.columns[i], size), unknowns.rows[i], size);
-  if (n == 0) return std::nullopt;
-  constexpr int most = 40;             // vectors
-  constexpr double invariant = 1e-12;  // what is left of a vector in an invariant subspace
-  constexpr double certain = 0.5;      // of the eigenvalue: its residual, at which its sign is certain
-  const Eigen::Index vectors = std::min<Eigen::Index>(n, most);
-  Eigen::MatrixXd basis(n, vectors), hessenberg = Eigen::MatrixXd::Zero(vectors, vectors);
-  basis.col(0) = first_vector(n);
-  Eigen::Index used = 0;
-  double left = 0;
-  while (used < vectors) {
-    Vector next;
-    if (!apply_inverse(solver, rows, unknowns, basis.col(used), next)) return std::nullopt;
-    const double length = next.norm();
-    for (int twice = 0; twice < 2; ++twice) {
-      const Vector parts = basis.leftCols(used + 1).transpose() * next;
-      hessenberg.col(used).head(used + 1) += parts;
-      next -= basis.leftCols(used + 1) * parts;
-    }
-    left = next.norm();
-    ++used;
-    if (left <= invariant * length) {
-      left = 0;
-      break;
-    }
-    if (used == vectors) break;
-    hessenberg(used, used - 1) = left;
-    basis.col(used) = next / left;
-  }
+  constexpr double certain = 0.5;  // of the eigenvalue: its residual, at which its sign is certain
+  Arnoldi arnoldi(solver, rows, size, unknowns);
   std::optional<CondensedEigenpair> found;
-  for (const RealEigenpair& pair : real_eigenpairs(hessenberg.topLeftCorner(used, used))) {
-    const double residual = used == n ? 0 : left * std::abs(pair.vector[used - 1]);
-    if (pair.value >= 0 || residual > certain * -pair.value) continue;
+  if (unknowns.factors.size() == 0) return found;
+  while (!arnoldi.is_at_end())
+    if (!arnoldi.extend()) return std::nullopt;
+  for (const RealEigenpair& pair : arnoldi.pairs()) {
+    if (pair.value >= 0 || arnoldi.residual(pair) > certain * -pair.value) continue;
     const double value = 1 / pair.value;
-    if (!found || value > found->value) found = {value, basis.leftCols(used) * pair.vector};
+    if (!found || value > found->value) found = {value, arnoldi.vector(pair)};
   }
   return found;
+}
+
+double smallest_if_positive(LinearSolver& solver, const std::vector<int>& rows, int size,
+                            const CondensedUnknowns& unknowns) {
+  constexpr int least = 16;        // vectors: with them a loss shows beside motions that are a hundred times as soft
+  constexpr double certain = 0.1;  // of the eigenvalue: its residual
+  Arnoldi arnoldi(solver, rows, size, unknowns);
+  for (int used = 1; !arnoldi.is_at_end(); ++used) {
+    if (!arnoldi.extend()) return 0;
+    if (used < least && !arnoldi.is_at_end()) continue;
+    const std::vector<RealEigenpair> pairs = arnoldi.pairs();
+    if (std::ranges::any_of(pairs, [](const RealEigenpair& pair) { return pair.value <= 0; })) return 0;
+    const auto largest = std::ranges::max_element(pairs, {}, &RealEigenpair::value);
+    if (largest != pairs.end() && arnoldi.residual(*largest) <= certain * largest->value)
+      return 1 / (largest->value + arnoldi.residual(*largest));
+  }
+  return 0;
 }
 
 }  // namespace sprekk

@@ -28,4 +28,9 @@ struct CondensedEigenpair {
 std::optional<CondensedEigenpair> negative_eigenpair(LinearSolver& solver, const std::vector<int>& rows, int size,
                                                      const CondensedUnknowns& unknowns);
 
+/// The smallest eigenvalue of M where all are positive; 0 where that is not certain. Takes no more back-solves than an
+/// estimate to a tenth needs. Collective.
+double smallest_if_positive(LinearSolver& solver, const std::vector<int>& rows, int size,
+                            const CondensedUnknowns& unknowns);
+
 }  // namespace sprekk

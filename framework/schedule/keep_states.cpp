@@ -1,15 +1,27 @@
 // After a solution in which cells have left their discrete states by a jump, or have lost strength: looks for the
 // solution to which small increments from the start of the step lead.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
 #include "framework/invariants.hpp"
-#include "framework/linear/condensed_eigenpair.hpp"
 #include "framework/schedule/newton.hpp"
 #include "framework/schedule/search_mode_guard.hpp"
 
 namespace sprekk {
+
+namespace {
+
+void append(CondensedUnknowns& all, const CondensedUnknowns& more) {
+  all.rows.insert(all.rows.end(), more.rows.begin(), more.rows.end());
+  all.columns.insert(all.columns.end(), more.columns.begin(), more.columns.end());
+  Vector factors(all.factors.size() + more.factors.size());
+  factors << all.factors, more.factors;
+  all.factors = std::move(factors);
+}
+
+}  // namespace
 
 int Newton::keep_states(const StepTime& step, const std::vector<Vector>& start) {
   int kept = 0, iterations = 0;
@@ -34,43 +46,44 @@ int Newton::keep_states(const StepTime& step, const std::vector<Vector>& start) 
   return iterations;
 }
 
-std::optional<Newton::Loss> Newton::find_loss(double time) {
-  struct Free {
-    const Softening* part;
-    FreeValues values;
-  };
-  std::vector<Free> free;
-  CondensedUnknowns condensed;
-  std::vector<double> factors;
+std::optional<CondensedUnknowns> Newton::condensed_to(const FreeValues& values) const {
   const auto place = [&](const Field* field) {
-    return std::find(unknowns_.begin(), unknowns_.end(), field) - unknowns_.begin();
+    return static_cast<int>(std::find(unknowns_.begin(), unknowns_.end(), field) - unknowns_.begin());
   };
+  const int row = place(values.row), column = place(values.column), all = static_cast<int>(unknowns_.size());
+  if (row == all || column == all) return std::nullopt;
+  CondensedUnknowns unknowns;
+  for (const int value : values.values) {
+    unknowns.rows.push_back(system_.first(row) + value);
+    unknowns.columns.push_back(system_.first(column) + value);
+  }
+  unknowns.factors = values.factors;
+  return unknowns;
+}
+
+std::optional<Newton::Loss> Newton::find_loss(double time) {
+  std::vector<std::pair<const Softening*, FreeValues>> free;
+  CondensedUnknowns all;
   for (const Part* part : parts_) {
     const auto* softening = dynamic_cast<const Softening*>(part);
     if (!softening) continue;
     FreeValues values = softening->free_values();
-    const auto row = place(values.row), column = place(values.column), all = std::ssize(unknowns_);
-    if (row == all || column == all) continue;
-    for (const int value : values.values) {
-      condensed.rows.push_back(system_.first(static_cast<int>(row)) + value);
-      condensed.columns.push_back(system_.first(static_cast<int>(column)) + value);
-    }
-    factors.insert(factors.end(), values.factors.begin(), values.factors.end());
-    free.push_back({softening, std::move(values)});
+    const std::optional<CondensedUnknowns> unknowns = condensed_to(values);
+    if (!unknowns) continue;
+    append(all, *unknowns);
+    free.emplace_back(softening, std::move(values));
   }
-  condensed.factors = Eigen::Map<const Vector>(factors.data(), std::ssize(factors));
-  const std::optional<CondensedEigenpair> pair =
-      negative_eigenpair(*linear_, system_.rows(), system_.size(), condensed);
+  const std::optional<CondensedEigenpair> pair = negative_eigenpair(*linear_, system_.rows(), system_.size(), all);
   if (!pair) return std::nullopt;
   std::optional<Loss> loss;
   double most = 0;
   Eigen::Index first = 0;
-  for (Free& part : free) {
-    const Vector motion = pair->vector.segment(first, std::ssize(part.values.values));
+  for (auto& [part, values] : free) {
+    const Vector motion = pair->vector.segment(first, std::ssize(values.values));
     first += motion.size();
     if (motion.norm() <= most) continue;
     most = motion.norm();
-    loss = {part.part, part.part->tell_loss({time, pair->value, std::move(part.values.values), motion})};
+    loss = {part, part->tell_loss({time, pair->value, std::move(values.values), motion})};
   }
   return loss;
 }
@@ -90,12 +103,28 @@ std::optional<Newton::Loss> Newton::find_loss(const StepTime& step, double time)
   return std::nullopt;
 }
 
-void Newton::follow_softening(const StepTime& step) {
-  const bool has_softened = std::ranges::any_of(parts_, [&](const Part* part) {
+bool Newton::may_have_passed_loss(const StepTime& step) {
+  CondensedUnknowns softened;
+  double spent = 0;
+  for (const Part* part : parts_) {
     const auto* softening = dynamic_cast<const Softening*>(part);
-    return softening && std::ranges::count(unknowns_, softening->free_values().column) > 0 && softening->has_softened();
-  });
-  if (!has_softened || options_.pieces == 0) return;
+    if (!softening) continue;
+    const Softened of_part = softening->softened();
+    const std::optional<CondensedUnknowns> unknowns = condensed_to(of_part.values);
+    if (!unknowns) continue;
+    append(softened, *unknowns);
+    spent = std::max(spent, of_part.spent);
+  }
+  if (softened.rows.empty() || std::isinf(spent)) return spent > 0;
+  // Fewer places move earlier in the step, and none loses more than at its end, or than what is spent. So where the
+  // stiffness at the end is larger than that, it was positive all the way.
+  const ResidualCheck check = evaluate(step);
+  if (!check.finite || !linear_->factor(system_.matrix(*assembly_)).solved) return true;
+  return smallest_if_positive(*linear_, system_.rows(), system_.size(), softened) <= spent;
+}
+
+void Newton::follow_softening(const StepTime& step) {
+  if (options_.pieces == 0 || !may_have_passed_loss(step)) return;
   const std::vector<Vector> found = values();
   std::vector<Vector> accepted;
   for (const Field* field : unknowns_) accepted.push_back(field->accepted());

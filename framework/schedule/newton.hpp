@@ -9,6 +9,7 @@
 #include "framework/assembly/block_system.hpp"
 #include "framework/assembly/part.hpp"
 #include "framework/assembly/softening.hpp"
+#include "framework/linear/condensed_eigenpair.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_step.hpp"
@@ -123,6 +124,10 @@ class Newton {
   std::optional<Loss> find_loss(const StepTime& step, double time);
   /// The same with the derivatives that are factorized.
   std::optional<Loss> find_loss(double time);
+  /// Nothing where they are not among the unknowns.
+  std::optional<CondensedUnknowns> condensed_to(const FreeValues& values) const;
+  /// After a solution in which places have lost strength: false where the way to it has been stable all along.
+  bool may_have_passed_loss(const StepTime& step);
   /// After a solution: looks whether a path leads to it. If it leads to another one, that is taken.
   void follow_softening(const StepTime& step);
   /// Whether the present values are another solution than these.

@@ -39,7 +39,8 @@ struct Case {
     return unknowns.factors.cwiseInverse().asDiagonal() * schur;
   }
 
-  std::optional<CondensedEigenpair> found() const {
+  template <class Search>
+  auto with_solver(const Search& search) const {
     LinearSystem system;
     system.local = a.sparseView();
     for (int i = 0; i < a.rows(); ++i) system.rows.push_back(i);
@@ -52,7 +53,19 @@ struct Case {
     options.type = "umfpack";
     const auto solver = make_linear_solver(options);
     EXPECT_TRUE(solver->factor(system).solved);
-    return negative_eigenpair(*solver, system.rows, static_cast<int>(a.rows()), unknowns);
+    return search(*solver, system.rows);
+  }
+
+  std::optional<CondensedEigenpair> found() const {
+    return with_solver([&](LinearSolver& solver, const std::vector<int>& rows) {
+      return negative_eigenpair(solver, rows, static_cast<int>(a.rows()), unknowns);
+    });
+  }
+
+  double smallest() const {
+    return with_solver([&](LinearSolver& solver, const std::vector<int>& rows) {
+      return smallest_if_positive(solver, rows, static_cast<int>(a.rows()), unknowns);
+    });
   }
 };
 
@@ -101,6 +114,35 @@ TEST(NegativeEigenpair, IsFoundBesideLargerPositiveOnes) {
   ASSERT_TRUE(found);
   EXPECT_LT(found->vector.head(20).norm(), 1e-6);
   EXPECT_NEAR((c.a * found->vector).dot(found->vector), found->value, 1e-6);
+}
+
+TEST(SmallestIfPositive, IsThatOfTheSchurComplementFromBelow) {
+  for (const double sign : {1.0, -1.0})
+    for (const int size : {3, 12, 60, 200})
+      for (const double weakening : {0.0, 1e-6, 1e-3, 0.3, 1.1}) {
+        SCOPED_TRACE(testing::Message() << size << " " << weakening << " " << sign);
+        const Case c = part_of_chain(size, weakening, sign);
+        const double smallest = Eigen::EigenSolver<Eigen::MatrixXd>(c.condensed()).eigenvalues().real().minCoeff();
+        if (smallest <= 0) {
+          EXPECT_EQ(c.smallest(), 0);
+          continue;
+        }
+        EXPECT_LE(c.smallest(), smallest * (1 + 1e-9));
+        EXPECT_GT(c.smallest(), 0.8 * smallest);
+      }
+}
+
+TEST(SmallestIfPositive, IsNotCertainBesideASmallLoss) {
+  // The softest motion is stable; another one, stiffer, has been lost.
+  Case c{Eigen::MatrixXd::Zero(40, 40), {}};
+  c.a.topLeftCorner(20, 20) = 0.02 * chain(20, 0, 0, 0);
+  c.a.bottomRightCorner(20, 20) = chain(20, 5, 15, 0.5);
+  for (int i = 0; i < 40; ++i) {
+    c.unknowns.rows.push_back(i);
+    c.unknowns.columns.push_back(i);
+  }
+  c.unknowns.factors = Vector::Ones(40);
+  EXPECT_EQ(c.smallest(), 0);
 }
 
 TEST(NegativeEigenpair, OfNothingIsNone) {
