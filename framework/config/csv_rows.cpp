@@ -93,10 +93,12 @@ double heading_scale(const CsvHeading& heading, const std::string& needed, const
   const Origin where{file, 1};
   if (is_unit(heading.unit) || heading.whole.back() == ']')
     return scale_to_si(heading.unit, needed, heading.unit, where, heading.name);
+  const std::string nearest = nearest_unit(heading.unit);
+  const std::string meant = have_one_dimension(nearest, needed) ? nearest : needed;
   throw InputError(where, quoted(heading.unit) + " in the heading " + quoted(heading.whole) + " is no unit",
                    "what stands in brackets or behind '/' is taken for the unit of the column",
                    needed.empty() ? "give the column a name without it"
-                                  : "write " + quoted(heading.name + "[" + needed + "]") + ", or a name without it");
+                                  : "write " + quoted(heading.name + "[" + meant + "]") + ", or a name without it");
 }
 
 void require_table(const CsvRows& csv, const std::string& file) {

@@ -114,8 +114,7 @@ Unit unit_of_name(const std::string& name) {
       throw UnitProblem{"unknown unit " + quoted(name),
                         "temperatures are in K, since a unit is a factor and has no zero of its own",
                         "write 353.15 K for 80 degrees Celsius"};
-  const auto alias = std::ranges::find_if(aliases, [&](const Alias& other) { return name == other.name; });
-  const std::string nearest = alias == aliases.end() ? nearest_name(name, common_names()) : alias->unit;
+  const std::string nearest = nearest_unit(name);
   throw UnitProblem{"unknown unit " + quoted(name),
                     "units are m g s min h d day year K rad deg Hz N Pa bar J W P l D %, with prefixes n u m c d k M G",
                     nearest.empty() ? "" : "did you mean " + quoted(nearest) + "?"};
@@ -258,6 +257,11 @@ Unit parse_unit(const std::string& text) {
   if (text.empty()) return {};
   if (text.size() > longest_unit) throw UnitProblem{"malformed unit " + quoted(text), "it is too long", ""};
   return UnitParser(text).parse();
+}
+
+std::string nearest_unit(const std::string& name) {
+  const auto alias = std::ranges::find_if(aliases, [&](const Alias& other) { return name == other.name; });
+  return alias == aliases.end() ? nearest_name(name, common_names()) : alias->unit;
 }
 
 bool is_unit(const std::string& text) { return have_one_dimension(text, text); }

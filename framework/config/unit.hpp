@@ -34,6 +34,8 @@ struct UnitProblem {
 Unit parse_unit(const std::string& text);
 
 bool is_unit(const std::string& text);
+/// The unit that a name which is none was probably to be: "MPa" for "Mpa"; "" where none is near.
+std::string nearest_unit(const std::string& name);
 /// Whether both texts are units, and of one dimension.
 bool have_one_dimension(const std::string& unit, const std::string& other);
 

@@ -17,6 +17,13 @@ std::string given_as(const std::string& name, const std::string& text) {
 
 std::string needed(const std::string& unit) { return unit.empty() ? "a plain number" : unit; }
 
+/// Stresses and stiffnesses of rock are rarely told in Pa.
+std::string with_likely_units(const std::string& number, const std::string& unit) {
+  const auto with = [&](const std::string& other) { return quoted(number + " " + other); };
+  if (unit == "Pa") return with("MPa") + ", " + with("GPa") + " or " + with("Pa");
+  return with(unit == "rad" ? "deg" : unit);
+}
+
 }  // namespace
 
 double scale_to_si(const std::string& written, const std::string& unit, const std::string& whole, const Origin& where,
@@ -31,25 +38,11 @@ double scale_to_si(const std::string& written, const std::string& unit, const st
   const Dimension wanted = parse_unit(unit).dimension;
   if (given.dimension == wanted) return given.scale;
   const std::string expected = unit.empty() ? "a plain number" : wanted.name() + ", in " + unit;
-  throw InputError(where, given_as(name, whole) + " has the dimension of " + given.dimension.name(),
-                   "needed is " + expected,
-                   unit.empty() ? "write the number without a unit" : "give it in a unit like " + unit);
-}
-
-void require_plain_number(const std::string& text, const Origin& where, const std::string& name) {
-  const auto refuse = [&](const std::string& what, const std::string& why, const std::string& advice) {
-    throw InputError(where, given_as(name, text) + " " + what, why, advice);
-  };
-  const std::string content = trimmed(text);
-  if (const std::string other = with_exponent_e(content); !other.empty())
-    refuse("has no number that can be read", "powers of ten are written with 'e'", "write " + quoted(other));
-  const std::optional<LeadingNumber> number = leading_number(content);
-  const bool has_comma = number && number->length + 1 < content.size() && content[number->length] == ',';
-  if (has_comma && std::isdigit(static_cast<unsigned char>(content[number->length + 1])) != 0)
-    refuse("has a decimal comma", "", "write decimals with a point");
-  for (const auto& [minus, name_of_it] : {std::pair("\u2212", "minus sign"), std::pair("\u2013", "dash")})
-    if (content.find(minus) != std::string::npos)
-      refuse(std::string("has a ") + name_of_it + " that is no '-'", "it looks like one, as texts are set", "type '-'");
+  throw InputError(
+      where, given_as(name, whole) + " has the dimension of " + given.dimension.name(), "needed is " + expected,
+      !unit.empty()                                    ? "give it in a unit like " + unit
+      : given.dimension == parse_unit("rad").dimension ? "write its tangent: " + quoted("tan(" + whole + ")")
+                                                       : "write the number without a unit");
 }
 
 double parse_quantity(const std::string& text, const std::string& unit, const Origin& where, const std::string& name) {
@@ -70,7 +63,7 @@ double parse_quantity(const std::string& text, const std::string& unit, const Or
   if (written.empty()) {
     throw InputError(where, given_as(name, text) + " has no unit",
                      "needed is " + parse_unit(unit).dimension.name() + ", in " + unit + " or another unit of it",
-                     "write " + quoted(content + " " + (unit == "rad" ? "deg" : unit)) + ", if that is what it is");
+                     "write " + with_likely_units(content, unit) + ", if that is what it is");
   }
   const double value = number->value * scale_to_si(written, unit, text, where, name);
   if (!std::isfinite(value)) throw InputError(where, given_as(name, text) + " is not finite", "in " + needed(unit));

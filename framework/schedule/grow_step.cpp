@@ -68,6 +68,7 @@ Growing* find_growing(const GrowOptions& options, const ScheduleContext& context
   if (!growing)
     throw InputError(options.origin, "component '" + options.component + "' does not grow",
                      std::string("a 'grow' step needs a component that ") + Growing::promise, growing_in(context));
+  growing->require_loads();
   return growing;
 }
 

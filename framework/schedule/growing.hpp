@@ -72,6 +72,8 @@ class Growing {
     /// injection. At most `unsettled`.
     double uneven = 0;
   };
+  /// Throws InputError where nothing tells it what loads its tips.
+  virtual void require_loads() const {}
   virtual Load examine(const StepTime& step) = 0;
   /// Examines those tips alone whose growth search_front() finds: others do not count in trials.
   virtual void examine_followed(const StepTime& step) = 0;

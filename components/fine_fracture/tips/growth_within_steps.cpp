@@ -37,6 +37,11 @@ void Tips::grow_within_steps() {
 }
 
 void Tips::note_input(Notes& notes) const {
+  if (!surroundings_)
+    notes.add(name() + " without a coupler",
+              fmt::format("{0} has no factors (no coupler gives it the displacements of the rock) add '- {{type: "
+                          "two_level, between: [ROCK, FLOW, {0}]}}' to 'couplers:'",
+                          name()));
   if (!options_.growth.has_front_tolerance || grows_within_steps_) return;
   notes.add(
       "front_tolerance without effect",

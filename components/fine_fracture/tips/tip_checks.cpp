@@ -7,6 +7,15 @@
 
 namespace sprekk::fine_fracture {
 
+void Tips::require_loads() const {
+  if (surroundings_) return;
+  throw InputError(origin_, fmt::format("nothing loads the tips of {}", name()),
+                   "no coupler 'two_level' names it: its tips would see neither rock nor fluid",
+                   fmt::format("add '- {{type: two_level, between: [ROCK, FLOW, {}]}}' to 'couplers:', with the names "
+                               "of your rock and of the flow in its fractures",
+                               name()));
+}
+
 /// Displacements of the outline are linear over coarse cells: a square that cannot keep one of them away from its tip
 /// has wrong factors (half of K_II with a quarter of a cell).
 void Tips::check_size(const Tip& tip) const {

@@ -52,6 +52,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
 
   /// Throws InputError for jumps on walls where the fine level takes none.
   void accept_surroundings(TipSurroundings& surroundings) override;
+  void require_loads() const override;
 
   Load examine(const StepTime& step) override { return examine(step, false); }
   void examine_followed(const StepTime& step) override { examine(step, true); }
