@@ -11,6 +11,8 @@ physics   the same answer in other frames: mirrored, and turned
 from dataclasses import dataclass
 from typing import Callable
 
+from . import base
+
 
 @dataclass(frozen=True)
 class Feature:
@@ -46,7 +48,14 @@ def setter(kind, name, path, value):
 
 # How the run is made.
 setter("neutral", "two processes", "processes", 2)
-setter("neutral", "restart", "restarted", True)
+
+
+@feature("neutral", "restart")
+def restart(draft):
+    draft.restarted = True
+    draft.meets = (base.STEP * base.STEPS / 2,)  # where the run is interrupted: an end cuts a step
+
+
 for solver in ("umfpack", "mumps", "belos"):
     setter("neutral", solver, "more.solver", {"type": solver})
 setter("neutral", "not condensed", "more.solver", {"condense": False})
@@ -136,7 +145,7 @@ def weakening(draft):
 @feature("physics", "rate and state")
 def rate_and_state(draft):
     draft.components["contact"]["rate_and_state"] = {"a": 0.015, "b": 0.01, "distance": "0.1 mm", "reference_rate": "1e-6 m/s",
-                                                     "initial_slip_rate": "1e-9 m/s"}
+                                                     "initial_slip_rate": "1e-9 m/s", "state_change": base.STATE_CHANGE}
 
 
 setter("physics", "opening", "components.conduit.injection", {"well": {"fracture": "main", "rate": 8e-6}})
