@@ -274,10 +274,18 @@ ResidualCheck IterateStep::coupled_residual(const StepTime& step) const {
 }
 
 StepStatus IterateStep::run(const StepTime& step) {
-  if (!fallback_) return make_passes(step);
-  fallback_->begin(step);
-  const StepStatus status = make_passes(step);
-  if (status.converged) return status;
+  std::vector<Vector> start;
+  for (const Field* field : fields_) start.push_back(field->now());
+  if (fallback_) fallback_->begin(step);
+  StepStatus status = make_passes(step);
+  if (!status.converged && accelerator_ && accelerator_->forget_steps()) {
+    for (std::size_t u = 0; u < fields_.size(); ++u) fields_[u]->set(start[u]);
+    begin_step(parts_, step);
+    const int before = status.iterations;
+    status = make_passes(step);
+    status.iterations += before;
+  }
+  if (status.converged || !fallback_) return status;
   if (accelerator_) accelerator_->rewound();
   return converged(step, fallback_->solve(step, status));
 }
