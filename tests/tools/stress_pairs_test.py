@@ -11,7 +11,7 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-from stress_suite.pairs import answers, features, matrix  # noqa: E402
+from stress_suite.pairs import answers, features, matrix, unanswered  # noqa: E402
 
 SPREKK = Path(sys.argv.pop(1)).resolve()
 NAMED = {feature.name: feature for feature in features.FEATURES}
@@ -45,6 +45,26 @@ class StressPairs(unittest.TestCase):
                 self.assertTrue(answers.same_times(answer, coulomb))
                 self.assertLess(answers.difference(answer, coulomb)[0], 1e-8)
                 self.assertGreater(answer.figures["slip.t[m]"][-1], 1e-5)
+
+    def test_what_has_no_answer_says_what_would_help(self):
+        """Parted walls and a fluid that is hardly compressible: nothing is proposed that the scene has already."""
+        for scheme, is_stabilized in (("iterate", False), ("subcycle flow linear", True)):
+            with self.subTest(scheme=scheme):
+                pair = NAMED[scheme], NAMED["opening"]
+                report = matrix.examine(self.runs, 0, *pair)
+                self.assertEqual((report["outcome"], report["failures"]), ("unanswered", []))
+                said = self.runs.of(pair).failed
+                self.assertEqual("stabilize" in said, not is_stabilized, said)
+                self.assertNotIn("anderson", said)
+
+    def test_a_pair_that_should_have_an_answer_must(self):
+        said = "exit code 1: the iteration does not converge: solve them in one 'solve', or give one of them 'stabilize: response' or 'fixed_stress'"
+        self.assertTrue(unanswered.reason(("iterate", "opening"), said))
+        self.assertIsNone(unanswered.reason(("fixed stress", "opening"), said))
+        self.assertIsNone(unanswered.reason(("iterate", "crossing"), said))
+        self.assertIsNone(unanswered.reason(("iterate", "opening"), "exit code 1: singular system"))
+        self.assertIsNone(unanswered.reason(("iterate", "opening"), said.replace("exit code 1", "exit code -11")))
+        self.assertIsNone(unanswered.reason(("iterate", "opening"), "exit code 1: the iteration does not converge: solve them in one 'solve'"))
 
 
 class Comparison(unittest.TestCase):

@@ -23,7 +23,11 @@ FLOORS = {"Pa": 1e5, "m": 1e-6, "K": 1.0}
 class Answer:
     figures: dict = field(default_factory=dict)  # column of history.csv: values
     refused: str = ""                            # the message of `check`
-    failed: str = ""                             # why there is no answer
+    failed: str = ""                             # why there is no answer; the figures are those of the steps before
+
+    @property
+    def missing(self):
+        return self.failed or self.refused
 
 
 def draft_of(features, where=frame.Frame, divide=1, scale=1.0, meets=None):
@@ -84,7 +88,7 @@ class Runs:
             ended = runner.run(self.program, scene, results, self.limit, draft.processes)
         if ended.timed_out or ended.code != 0:
             said = [line for line in ended.stderr.splitlines() if not line.startswith("note")]
-            return Answer(failed=f"{'no end' if ended.timed_out else f'exit code {ended.code}'}: {' '.join(said)[-400:]}")
+            return Answer(self.figures(results), failed=f"{'no end' if ended.timed_out else f'exit code {ended.code}'}: {' '.join(said)[-600:]}")
         return Answer(figures=self.figures(results), failed=self.lost(results))
 
     @staticmethod
