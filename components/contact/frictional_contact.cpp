@@ -86,7 +86,6 @@ void FrictionalContact::begin_step(const StepTime& step) {
   if (rate_and_state_) rate_and_state_->begin_step(step);
   back_slip_.clear();
   kept_.clear();
-  last_.resize(0);
 }
 
 void FrictionalContact::set_search_mode(SearchMode mode) {
@@ -164,7 +163,6 @@ void FrictionalContact::after_solve(const std::vector<Field*>& solved, const Ste
 
 void FrictionalContact::observe_iterate(const std::vector<Field*>& unknowns) {
   is_solved_for_ = std::find(unknowns.begin(), unknowns.end(), &traction_) != unknowns.end();
-  if (is_solved_for_ && multiplier_ == Multiplier::last) last_ = traction_.now();
   if (follows_pieces_ || !is_solved_for_) return;
   const std::array<std::uint64_t, 2> values{traction_.version(), jump_.version()};
   if (!back_slip_.empty() && values == followed_) return;  // this update has been considered already

@@ -155,11 +155,12 @@ class FrictionalContact : public Component,
   Trial trial(int cell) const;
   /// The traction that friction of rate and state gives for the trial.
   Trial::AtRate at_rate(int cell, const Trial& trial) const;
-  Vector slips() const;               ///< m, now, along the tangents of each cell
-  double multiplier(int cell) const;  ///< the normal traction m at which the springs carry nothing, Pa
-  TangentialVector tangential_multiplier(int cell) const;  ///< the tangential traction m, Pa
-  /// The change of length of the springs, m, which adds to the gap: negative where they are pressed together.
+  Vector slips() const;  ///< m, now, along the tangents of each cell
+  /// The change of length of the springs, m, which adds to the gap: negative where they are pressed together. Zero with
+  /// Multiplier::last, since the traction at which they carry nothing is the one of the present iterate.
   double overlap(int cell) const;
+  /// The slip of the springs in the step, m, before friction acts; zero with Multiplier::last.
+  TangentialVector elastic_slip(int cell) const;
   /// The opening by dilation, m, after slip of this size, and its derivative.
   double dilated(int cell, double slip) const;
   double dilation_at(int cell, double slip) const;
@@ -197,9 +198,8 @@ class FrictionalContact : public Component,
   std::optional<double> dilation_limit_;  ///< m
   Weakening weakening_;
   Multiplier multiplier_;
-  double stiffness_factor_;           ///< of the springs over c
-  Vector last_;                       ///< Pa, the traction of the iterate before; empty at the start of a step
-  std::unique_ptr<Closure> closure_;  ///< null for hard walls
+  double stiffness_factor_;                            ///< of the springs over c
+  std::unique_ptr<Closure> closure_;                   ///< null for hard walls
   std::unique_ptr<RateAndStateWalls> rate_and_state_;  ///< null where friction does not depend on the rate
   Property friction_, dilation_angle_;                 ///< mu_s, psi
   Property dynamic_friction_;                          ///< mu_d, where friction weakens

@@ -6,7 +6,8 @@ namespace sprekk::contact {
 /// How the contact conditions are enforced. `present`: exactly, for gap and slip themselves. `none`, a penalty method:
 /// springs of stiffness c lie between the walls, so f = Pi(m + c (gap, slip)), where m is 0 in the normal direction and
 /// the traction before the step along the walls. `last`, an augmented Lagrangian method: the same springs, with m the
-/// traction of the previous iterate, which stays while the next one is found; at convergence the springs carry nothing.
+/// traction of the previous iterate, which stays while the next one is found. So each residual, which is that of an
+/// iterate, is without springs, and its derivatives are with them.
 ///
 /// Springs are a compliance in series: f = Pi(m + c g) is the same as f = Pi(f + c' (g − (f − m)/c)) for every c' > 0.
 /// Newton's method takes this form, with c' the stiffness of the rock as without springs. In the first form, walls

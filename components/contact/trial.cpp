@@ -16,8 +16,8 @@ TangentialVector FrictionalContact::tangential(const Vector& values, int i) {
 }
 
 Point FrictionalContact::compliance(int i) const {
-  const bool has_springs = multiplier_ == Multiplier::none ||
-                           (multiplier_ == Multiplier::last && !is_without_shortcuts_ && last_.size() > 0);
+  const bool has_springs =
+      multiplier_ == Multiplier::none || (multiplier_ == Multiplier::last && !is_without_shortcuts_);
   if (!has_springs) return Point::Zero();
   const Vector& rock = multiplier_ == Multiplier::last ? stiffness_of_walls_ : stiffness_of_fractures_;
   return (stiffness_factor_ * rock.segment<dimension>(dimension * i)).cwiseInverse();
@@ -47,17 +47,13 @@ double FrictionalContact::path(int i, double gap) const {
   return path_->accepted()[i] + slip + std::max(0.0, gap - before);
 }
 
-double FrictionalContact::multiplier(int i) const {
-  return multiplier_ == Multiplier::last ? last_[dimension * i] : 0.0;
-}
-
-TangentialVector FrictionalContact::tangential_multiplier(int i) const {
-  return tangential(multiplier_ == Multiplier::last ? last_ : traction_.accepted(), i);
-}
-
 double FrictionalContact::overlap(int i) const {
-  const double compliance = this->compliance(i)[0];
-  return compliance > 0 ? compliance * (traction_.now()[dimension * i] - multiplier(i)) : 0.0;
+  return multiplier_ == Multiplier::none ? compliance(i)[0] * traction_.now()[dimension * i] : 0.0;
+}
+
+TangentialVector FrictionalContact::elastic_slip(int i) const {
+  if (multiplier_ != Multiplier::none) return TangentialVector::Zero();
+  return compliance(i)[1] * (tangential(traction_.now(), i) - tangential(traction_.accepted(), i));
 }
 
 Trial FrictionalContact::trial(int i) const {
@@ -83,9 +79,7 @@ Trial FrictionalContact::trial(int i) const {
   t.holds_open = path_ && t.strength.cohesion > 0;
   t.gap -= overlap(i);
   const TangentialVector f_t = tangential(traction_.now(), i);
-  TangentialVector slipped = u_t - tangential(jump_.accepted(), i);
-  if (const double compliance = this->compliance(i)[1]; compliance > 0)
-    slipped -= compliance * (f_t - tangential_multiplier(i));
+  const TangentialVector slipped = u_t - tangential(jump_.accepted(), i) - elastic_slip(i);
   t.normal = traction_.now()[row] + c_n * t.gap;
   t.tangential = f_t + c_t * slipped;
   if (path_) {

@@ -26,6 +26,9 @@ class Accelerator {
   virtual void accepted() {}
   /// Called when the time step is taken back: what iterations since the last acceptance have learned is forgotten.
   virtual void rewound() {}
+  /// Called when an iteration has not converged: forgets what former time steps have taught, and tells whether there
+  /// was anything. Steps of another length, or with walls in other states, may have taught what leads away.
+  virtual bool forget_steps() { return false; }
   /// For checkpoints: what later time steps use of former ones, as named values. `restore` ignores values of another
   /// shape, and forgets what there was.
   virtual void save(std::map<std::string, Vector>& /*state*/) const {}

@@ -30,6 +30,12 @@ class IqnIls : public Accelerator {
   void forget() override { passes_.begin(); }
   void accepted() override;
   void rewound() override { passes_.begin(); }
+  bool forget_steps() override {
+    passes_.begin();
+    const bool knew_some = !former_.empty();
+    former_.clear();
+    return knew_some;
+  }
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
 

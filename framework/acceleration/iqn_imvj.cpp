@@ -31,6 +31,13 @@ class IqnImvj : public Accelerator {
   void forget() override { passes_.begin(); }
   void accepted() override;
   void rewound() override { passes_.begin(); }
+  bool forget_steps() override {
+    passes_.begin();
+    const bool knew_some = a_.cols() > 0;
+    a_.resize(0, 0);
+    b_.resize(0, 0);
+    return knew_some;
+  }
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
 

@@ -200,12 +200,22 @@ double IterateStep::relative_change(const Vector& change, const Vector& before) 
   return relative;
 }
 
+std::string IterateStep::remedies() const {
+  std::string text = "solve them in one 'solve'";
+  if (!inside_->is_stabilized()) {
+    text += accelerator_ ? ", or" : ",";
+    text += " give one of them 'stabilize: response'";
+    std::set<std::string> offered;
+    for (const Part* part : parts_)
+      for (const std::string& name : part->stabilizations()) offered.insert(name);
+    for (const std::string& name : offered) text += " or '" + name + "'";
+  }
+  if (!accelerator_) text += ", or accelerate with 'anderson'";
+  return text;
+}
+
 StepStatus IterateStep::without_end(const StepTime& step, const std::string& what, double factor, int pass) {
-  StepStatus status{
-      false,
-      what + " (the steps inside act on one another too strongly) solve them in one 'solve'" +
-          (accelerator_ ? ", or stabilize the first" : ", stabilize the first, or accelerate with 'anderson'"),
-      pass};
+  StepStatus status{false, what + " (the steps inside act on one another too strongly) " + remedies(), pass};
   status.is_hopeless = diverging_.is_no_better(step, factor);
   if (!status.is_hopeless) return status;
   status.reason += "; shorter steps do no better";
@@ -274,10 +284,18 @@ ResidualCheck IterateStep::coupled_residual(const StepTime& step) const {
 }
 
 StepStatus IterateStep::run(const StepTime& step) {
-  if (!fallback_) return make_passes(step);
-  fallback_->begin(step);
-  const StepStatus status = make_passes(step);
-  if (status.converged) return status;
+  std::vector<Vector> start;
+  for (const Field* field : fields_) start.push_back(field->now());
+  if (fallback_) fallback_->begin(step);
+  StepStatus status = make_passes(step);
+  if (!status.converged && accelerator_ && accelerator_->forget_steps()) {
+    for (std::size_t u = 0; u < fields_.size(); ++u) fields_[u]->set(start[u]);
+    begin_step(parts_, step);
+    const int before = status.iterations;
+    status = make_passes(step);
+    status.iterations += before;
+  }
+  if (status.converged || !fallback_) return status;
   if (accelerator_) accelerator_->rewound();
   return converged(step, fallback_->solve(step, status));
 }

@@ -83,6 +83,8 @@ class IterateStep : public ScheduleStep, public StepHistory {
   /// The status of passes that do not converge. `what`: what they do instead; `factor`: by which changes grow from pass
   /// to pass.
   StepStatus without_end(const StepTime& step, const std::string& what, double factor, int pass);
+  /// What may help passes that diverge, of what the scene has not written yet.
+  std::string remedies() const;
   std::string most_changed(const Vector& change) const;  ///< the field whose part of a scaled change is largest
   Vector scaled_values() const;
   void set_scaled_values(const Vector& values);

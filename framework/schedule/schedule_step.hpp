@@ -48,6 +48,10 @@ class ScheduleStep {
   }
   /// Whether it solves for the field in a time step: a `when` may leave it out.
   virtual bool solves(const Field& field, const StepTime&) const { return std::ranges::count(unknowns(), &field) > 0; }
+  /// Whether it, or a step inside it, solves with a stabilization.
+  virtual bool is_stabilized() const {
+    return std::ranges::any_of(children(), [](const ScheduleStep* child) { return child->is_stabilized(); });
+  }
   /// Throws InputError for options that have no effect. Called when all parts have data.
   virtual void check() const {
     for (const ScheduleStep* child : children()) child->check();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/assembly/holds_amounts.hpp"
+#include "framework/assembly/needs_direct_solver.hpp"
 #include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -233,7 +234,20 @@ void SolveStep::check_response() const {
     }
 }
 
+void SolveStep::check_solver() const {
+  if (options_.linear.type != "belos") return;
+  for (const Part* part : parts_) {
+    const auto* needing = dynamic_cast<const NeedsDirectSolver*>(part);
+    if (!needing) continue;
+    const NeedsDirectSolver::Need need = needing->needs_direct_solver();
+    if (need.field && std::ranges::count(fields_, need.field) > 0)
+      throw InputError(options_.origin, "'solver: belos' cannot solve for " + need.field->name(), need.because,
+                       "choose 'auto', 'umfpack' or 'mumps'");
+  }
+}
+
 void SolveStep::check() const {
+  check_solver();
   if (options_.stabilization == "none") return;
   if (options_.stabilization == response) return check_response();
   Stabilization stabilization;

@@ -37,6 +37,7 @@ class SolveStep : public ScheduleStep {
     newton_->iterate_at_least_once();
   }
   /// Throws InputError for a stabilization that has no effect.
+  bool is_stabilized() const override { return options_.stabilization != "none"; }
   void check() const override;
   double largest_imbalance() const override { return looser_for_balances * options_.newton.residual; }
   void note_step(Notes& notes, const StepTime& step) const override { newton_->note_step(notes, step); }
@@ -44,6 +45,8 @@ class SolveStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override;
 
  private:
+  /// Throws InputError for a solver that cannot solve for the unknowns.
+  void check_solver() const;
   void check_response() const;
   /// The pairs of fields for which the stabilization adds the Schur complement of the waiting unknowns.
   ResponseOptions wanted_responses() const;

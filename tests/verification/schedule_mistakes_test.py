@@ -38,6 +38,16 @@ class ScheduleMistakes(unittest.TestCase):
             self.assertEqual(code != 0, is_refused, said)
             self.assertEqual("'newton: residual' is larger than 'until: relative'" in said, is_refused, said)
 
+    def test_a_solver_that_cannot_solve_is_refused(self):
+        # Elements of second order leave nothing on fractures that the preconditioner of belos could eliminate first.
+        for order, solver, schedule, is_refused in (("second", "belos", f"[{{{ALL}}}]", True), ("second", "umfpack", f"[{{{ALL}}}]", False),
+                                                    ("first", "belos", f"[{{{ALL}}}]", False),
+                                                    ("second", "belos", f"[{{{FLOW}}}, {{{ROCK}, solver: {{type: umfpack}}}}]", False)):
+            run = sprekk("check", SCENE, "--set", "components.rock.type=poromechanics/fem", "--set", f"components.rock.order={order}",
+                         "--set", f"solver.type={solver}", "--set", f"schedule={schedule}")
+            self.assertEqual(run.returncode, 2 if is_refused else 0, run.stderr)
+            self.assertEqual("'solver: belos' cannot solve for rock.wall_traction" in run.stderr, is_refused, run.stderr)
+
     def test_settling_leaves_nothing_behind(self):
         def settle(what):
             run = sprekk("check", ROOT / "configs/paper/wing_cracks.yaml", "--set", f"schedule=[{{{ALL}}}, {{grow: tips, settle: {what}}}]")

@@ -74,6 +74,14 @@ FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
                                     .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
 }
 
+NeedsDirectSolver::Need FemRock::needs_direct_solver() const {
+  if (order_ == ElementOrder::first || !wall_traction_) return {};
+  return {
+      wall_traction_,
+      "at second order jumps are differences of displacements alone, so where the rock is held nothing determines the "
+      "tractions of walls"};
+}
+
 std::vector<Field*> FemRock::unknowns() const {
   std::vector<Field*> fields{&displacement_};
   if (of_faces_) fields.push_back(of_faces_);

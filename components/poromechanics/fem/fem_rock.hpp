@@ -14,6 +14,7 @@
 #include "components/poromechanics/rock_stiffness.hpp"
 #include "components/poromechanics/settled_rock.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/needs_direct_solver.hpp"
 #include "framework/assembly/notes_start.hpp"
 #include "framework/scene/component.hpp"
 
@@ -37,6 +38,7 @@ class FemRock : public Component,
                 public RockState,
                 public RockStress,
                 public CountsFromHere,
+                public NeedsDirectSolver,
                 public NotesStart {
  public:
   /// Throws InputError as Rock does.
@@ -44,6 +46,7 @@ class FemRock : public Component,
 
   void evaluate_data(const StepTime& step) override;
   bool allows_stages() const override { return true; }
+  Need needs_direct_solver() const override;
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   /// Throws InputError at first order, where the stabilization is no stress of cells.

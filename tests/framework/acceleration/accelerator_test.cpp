@@ -122,6 +122,25 @@ TEST(Accelerators, WhatIsTakenBackIsForgotten) {
   }
 }
 
+TEST(Accelerators, StepsThatLeadAwayCanBeForgotten) {
+  constexpr int size = 6;
+  const Affine map = random_map(size, 3, 1.7), other = random_map(size, 4, 1.7);
+  for (const auto& [name, key] : {std::pair("iqn_imvj", "rank"), std::pair("iqn_ils", "reuse")}) {
+    const auto accelerator = make(name, {{key, "20"}});
+    const auto first_pass = [&] {
+      accelerator->begin(Vector::Ones(size));
+      return accelerator->next(Vector::Zero(size), other(Vector::Zero(size)));
+    };
+    passes(*accelerator, map, Vector::Ones(size), 1e-9, 50);
+    accelerator->accepted();
+    EXPECT_GT((first_pass() - other.b).norm(), 0.1 * other.b.norm()) << name;
+    EXPECT_TRUE(accelerator->forget_steps()) << name;
+    EXPECT_EQ(first_pass(), other.b) << name;  // a plain pass
+    EXPECT_FALSE(accelerator->forget_steps()) << name;
+    EXPECT_LE(passes(*accelerator, other, Vector::Ones(size), 1e-9, 50), size + 2) << name;
+  }
+}
+
 TEST(Accelerators, ARestoredHistoryGoesOnToTheBit) {
   const int size = 7;
   Affine map = random_map(size, 11, 0.9);

@@ -14,6 +14,7 @@ from .. import written
 from . import base, frame
 
 PER_STEP = 1e-8     # part of all that was moved by which a balance may be off
+SAME_TIME = 1e-9    # of the end: times nearer to one another are one
 # Below these a figure is round-off: of stresses of 10 MPa and their displacements over ten metres, and of temperatures.
 FLOORS = {"Pa": 1e5, "m": 1e-6, "K": 1.0}
 
@@ -22,15 +23,24 @@ FLOORS = {"Pa": 1e5, "m": 1e-6, "K": 1.0}
 class Answer:
     figures: dict = field(default_factory=dict)  # column of history.csv: values
     refused: str = ""                            # the message of `check`
-    failed: str = ""                             # why there is no answer
+    failed: str = ""                             # why there is no answer; the figures are those of the steps before
+
+    @property
+    def missing(self):
+        return self.failed or self.refused
 
 
-def draft_of(features, where=frame.Frame, divide=1, scale=1.0):
+def draft_of(features, where=frame.Frame, divide=1, scale=1.0, meets=None):
+    """`divide`: what steps are divided by; `meets`: times at which steps end, s."""
     draft = base.Draft(where())
     draft.scale = scale
     for feature in sorted(features, key=lambda one: one.kind == "rest"):
         feature.add(draft)
     draft.time["step"] /= divide
+    if divide > 1 and "rate_and_state" in draft.components["contact"]:
+        draft.components["contact"]["rate_and_state"]["state_change"] /= divide
+    if meets is not None:
+        draft.meets = meets
     return draft
 
 
@@ -71,13 +81,14 @@ class Runs:
         results = folder / "results"
         if draft.restarted:
             half = base.STEP * base.STEPS / 2
-            first = runner.run(self.program, scene, results, self.limit, more=("--set", f"time.end={half!r} s"))
-            ended = runner.run(self.program, scene, results, self.limit, more=("--restart",)) if first.code == 0 else first
+            ended = runner.run(self.program, scene, results, self.limit, draft.processes, more=("--set", f"time.end={half!r} s"))
+            if ended.code == 0:
+                ended = runner.run(self.program, scene, results, self.limit, draft.processes, more=("--restart",))
         else:
             ended = runner.run(self.program, scene, results, self.limit, draft.processes)
         if ended.timed_out or ended.code != 0:
             said = [line for line in ended.stderr.splitlines() if not line.startswith("note")]
-            return Answer(failed=f"{'no end' if ended.timed_out else f'exit code {ended.code}'}: {' '.join(said)[-400:]}")
+            return Answer(self.figures(results), failed=f"{'no end' if ended.timed_out else f'exit code {ended.code}'}: {' '.join(said)[-600:]}")
         return Answer(figures=self.figures(results), failed=self.lost(results))
 
     @staticmethod
@@ -103,15 +114,31 @@ def probes(answer):
     return [name for name in answer.figures if name.split("[")[0].split(".")[0] in wanted]
 
 
+def times(answer):
+    return answer.figures["time[s]"]
+
+
+def same_times(one, other):
+    a, b = times(one), times(other)
+    return len(a) == len(b) and bool((np.abs(a - b) <= SAME_TIME * b[-1]).all())
+
+
+def rows_at(answer, wanted):
+    """The rows of an answer at these times; None where it has none at one of them."""
+    rows = np.abs(times(answer)[:, None] - wanted).argmin(axis=0)
+    return rows if (np.abs(times(answer)[rows] - wanted) <= SAME_TIME * wanted[-1]).all() else None
+
+
 def difference(one, other, at_end=False):
-    """(largest difference of a figure over its largest value, its name). Tangential components change their sign in a mirror."""
+    """(largest difference of a figure over its largest value, its name): at the times of the first answer if the second has them, otherwise at the
+    end. Tangential components change their sign in a mirror."""
     worst, which = 0.0, ""
+    rows = None if at_end else rows_at(other, times(one))
     for name in probes(other):
         if name not in one.figures:
             return np.inf, name
         a, b = np.abs(one.figures[name]), np.abs(other.figures[name])
-        if at_end or len(a) != len(b):
-            a, b = a[-1:], b[-1:]
+        a, b = (a[-1:], b[-1:]) if rows is None else (a, b[rows])
         size = max(np.abs(other.figures[name]).max(), FLOORS[name.split("[")[1].rstrip("]")])
         found = float(np.abs(a - b).max() / size)
         if not found <= worst:

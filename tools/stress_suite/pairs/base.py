@@ -2,6 +2,7 @@
 
 STEPS, STEP = 4, 500.0  # number and s
 RATE = 2e-6             # m^2/s into the fracture main
+STATE_CHANGE = 0.1      # of friction of rate and state, which limits steps
 
 
 class Draft:
@@ -20,7 +21,7 @@ class Draft:
         self.adapts = False        # steps grow to twice the first one
         self.driven = True         # fluid is injected
         self.mirrors = True        # the mesh is the same in all frames
-        self.processes, self.restarted, self.settings = 1, False, []
+        self.processes, self.restarted, self.meets = 1, False, ()  # meets: times that steps end at, s
         self.geometry = {"box": {"x": [0, f.box[0]], "y": [0, f.box[1]]},
                          "fractures": {"main": {"points": [f.point(2, 3), f.point(6, 3)]},
                                        "other": {"points": [f.point(7, 1), f.point(7, 4)]}}}
@@ -78,4 +79,4 @@ class Draft:
         return {"name": "pair", "geometry": self.geometry, "mesh": self.mesh, "materials": self.materials, "components": components,
                 "couplers": self.couplers, "schedule": self.steps(),
                 "time": self.times(),
-                "output": {"probes": self.probes}, **self.more}
+                "output": {"probes": self.probes, **({"times": [f"{time!r} s" for time in self.meets]} if self.meets else {})}, **self.more}
