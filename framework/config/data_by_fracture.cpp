@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "framework/config/data_reader.hpp"
 #include "framework/config/expression.hpp"
@@ -48,24 +50,49 @@ std::optional<std::string> beginning_of(const std::string& key) {
   return key.substr(0, key.size() - 1);
 }
 
-bool stands_for(const std::string& key, const std::string& name) {
-  const auto beginning = beginning_of(key);
-  return beginning ? name.starts_with(*beginning) : key == name;
-}
-
-/// The entry for a name: its own, else that of a beginning of the name, else the default; nullptr without any.
-const Node* value_for(const Node& map, const std::string& name, const DataRequest& request) {
-  if (const Node* own = map.find(name)) return own;
-  const Node::Entry* found = nullptr;
-  for (const Node::Entry& entry : map.entries) {
-    if (!beginning_of(entry.key) || !stands_for(entry.key, name)) continue;
-    if (found)
-      throw InputError(entry.origin, fmt::format("{} has two values for {}", quoted(request.name), quoted(name)),
-                       fmt::format("{} and {} both stand for it", quoted(found->key), quoted(entry.key)),
-                       "give its own name, too");
-    found = &entry;
+/// The entries of a map of values by name, found without a walk through all of them: there may be thousands.
+class ValuesOf {
+ public:
+  ValuesOf(const Node& map, const DataRequest& request) : request_(request) {
+    for (const Node::Entry& entry : map.entries) {
+      own_.emplace(entry.key, &entry.value);
+      if (beginning_of(entry.key)) beginnings_.push_back(&entry);
+    }
   }
-  return found ? &found->value : map.find("default");
+
+  /// That of a name: its own, else that of a beginning of the name, else the default; nullptr without any.
+  const Node* find(const std::string& name) const {
+    if (const auto own = own_.find(name); own != own_.end()) return own->second;
+    const Node::Entry* found = nullptr;
+    for (const Node::Entry* entry : beginnings_) {
+      if (!name.starts_with(*beginning_of(entry->key))) continue;
+      if (found)
+        throw InputError(entry->origin, fmt::format("{} has two values for {}", quoted(request_.name), quoted(name)),
+                         fmt::format("{} and {} both stand for it", quoted(found->key), quoted(entry->key)),
+                         "give its own name, too");
+      found = entry;
+    }
+    if (found) return &found->value;
+    const auto otherwise = own_.find("default");
+    return otherwise == own_.end() ? nullptr : otherwise->second;
+  }
+
+ private:
+  const DataRequest& request_;
+  std::unordered_map<std::string, const Node*> own_;
+  std::vector<const Node::Entry*> beginnings_;
+};
+
+void require_known_names(const Node& map, const NamedPlaces& places, const std::vector<std::string>& names) {
+  const std::unordered_set<std::string> known(names.begin(), names.end());
+  for (const Node::Entry& entry : map.entries) {
+    const auto beginning = beginning_of(entry.key);
+    const bool is_known = entry.key == "default" || known.count(entry.key) > 0 ||
+                          (beginning && std::ranges::any_of(names, [&](const std::string& name) {
+                             return name.starts_with(*beginning);
+                           }));
+    if (!is_known) throw unknown_key(entry.origin, places.one, entry.key, names);
+  }
 }
 
 }  // namespace
@@ -75,17 +102,13 @@ std::vector<const Node*> values_by_name(const Node& node, const DataRequest& req
   require_known_keys(node, {places.key}, request);
   const Node& map = *node.find(places.key);
   if (!map.is_map()) throw wrong_kind(map, request.name + "." + places.key, "a map of a value for each " + places.one);
-  for (const Node::Entry& entry : map.entries) {
-    const bool is_known = entry.key == "default" || std::ranges::any_of(names, [&](const std::string& name) {
-                            return stands_for(entry.key, name);
-                          });
-    if (!is_known) throw unknown_key(entry.origin, places.one, entry.key, names);
-  }
+  require_known_names(map, places, names);
   if (names.empty())
     throw InputError(map.origin, "the scene has no " + places.key, "", "give one value without '" + places.key + "'");
+  const ValuesOf given(map, request);
   std::vector<const Node*> values;
   for (const std::string& name : names) {
-    const Node* const value = value_for(map, name, request);
+    const Node* const value = given.find(name);
     if (value == nullptr)
       throw InputError(
           map.origin,

@@ -9,6 +9,7 @@
 #include "framework/discretization/end_surroundings.hpp"
 #include "framework/discretization/ends_nearby.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/search/segment_tree.hpp"
 
 namespace sprekk {
 namespace {
@@ -19,13 +20,35 @@ double fading(double part, double width) {
   return s * s * (3 - 2 * s);
 }
 
-/// Nodes of sides and fractures, which disturb the field of an end.
-std::vector<int> outer_nodes(const Mesh& mesh) {
-  std::set<int> nodes;
-  for (int face = 0; face < mesh.face_count(); ++face)
-    if (mesh.face_cells[face][1] == none) nodes.insert(mesh.face_nodes[face].begin(), mesh.face_nodes[face].end());
-  return {nodes.begin(), nodes.end()};
-}
+/// The nodes of sides and fractures, which disturb the field of an end.
+class OuterNodes {
+ public:
+  explicit OuterNodes(const Mesh& mesh) : nodes_(nodes_of(mesh)), tree_(places_of(mesh, nodes_)) {}
+
+  std::size_t count() const { return nodes_.size(); }
+  /// All that are not farther than `reach` (m), and some that are, in ascending order.
+  std::vector<int> near(const Point& x, double reach) const {
+    std::vector<int> near = tree_.near({x, x}, reach);
+    for (int& node : near) node = nodes_[node];
+    return near;
+  }
+
+ private:
+  static std::vector<int> nodes_of(const Mesh& mesh) {
+    std::set<int> nodes;
+    for (int face = 0; face < mesh.face_count(); ++face)
+      if (mesh.face_cells[face][1] == none) nodes.insert(mesh.face_nodes[face].begin(), mesh.face_nodes[face].end());
+    return {nodes.begin(), nodes.end()};
+  }
+  static std::vector<Segment> places_of(const Mesh& mesh, const std::vector<int>& nodes) {
+    std::vector<Segment> places;
+    for (const int node : nodes) places.push_back({mesh.nodes[node], mesh.nodes[node]});
+    return places;
+  }
+
+  std::vector<int> nodes_;
+  SegmentTree tree_;
+};
 
 /// A place on the end's own fracture.
 struct Bend {
@@ -49,8 +72,9 @@ struct Room {
   }
 };
 
-Room room_around(const Mesh& mesh, int end, const std::vector<int>& outer, const ZoneLimits& limits) {
-  const EndFrame frame(mesh, end);
+/// What is seen of the room from these nodes of sides and fractures.
+Room room_among(const std::vector<int>& outer, const Mesh& mesh, int end, const EndFrame& frame,
+                const ZoneLimits& limits) {
   SPREKK_ASSERT(is_fracture_end(mesh, end), end);
   const FractureCell& last = mesh.fracture_cells[NodeWalls(mesh, end).cells[0]];
   Room room;
@@ -68,6 +92,17 @@ Room room_around(const Mesh& mesh, int end, const std::vector<int>& outer, const
     if (is_fracture_end(mesh, node)) room.other_tip = std::min(room.other_tip, distance);
   }
   return room;
+}
+
+/// Looks farther and farther away until something disturbs the field. Adds the nodes that were looked at.
+Room room_around(const Mesh& mesh, int end, const OuterNodes& outer, const ZoneLimits& limits, long& looked_at) {
+  const EndFrame frame(mesh, end);
+  for (double reach = limits.half_width * frame.size();; reach *= 2) {
+    const std::vector<int> near = outer.near(mesh.nodes[end], reach);
+    looked_at += static_cast<long>(near.size());
+    Room room = room_among(near, mesh, end, frame, limits);
+    if (room.free <= reach || near.size() == outer.count()) return room;
+  }
 }
 
 struct Reached {
@@ -108,13 +143,14 @@ std::vector<int> cells_next_to(const Mesh& mesh, int end) {
 
 EndZones end_zones(const Mesh& mesh, const ZoneLimits& limits) {
   EndZones zones{ends_nearby(mesh, limits.near), std::vector<double>(mesh.node_count(), 0), {}};
-  const std::vector<int> outer = outer_nodes(mesh);
+  const OuterNodes outer(mesh);
   for (int node = 0; node < mesh.node_count(); ++node)
     if (zones.end[node] != none) zones.weight[node] = 1;
   for (int end = 0; end < mesh.node_count(); ++end) {
     if (!is_fracture_end(mesh, end)) continue;
     zones.cells[end] = cells_next_to(mesh, end);
-    for (const auto& [node, weight] : nodes_of_zone(mesh, end, room_around(mesh, end, outer, limits), limits)) {
+    const Room room = room_around(mesh, end, outer, limits, zones.looked_at);
+    for (const auto& [node, weight] : nodes_of_zone(mesh, end, room, limits)) {
       if (zones.end[node] != none) continue;
       zones.end[node] = end;
       SPREKK_ASSERT(weight > 0 && weight <= 1, node, weight);

@@ -34,6 +34,7 @@ struct EndZones {
   std::vector<int> end;                   ///< for each node: its end, or none
   std::vector<double> weight;             ///< for each node: 0 to 1
   std::map<int, std::vector<int>> cells;  ///< for each end: the cells at it and at the nodes next to it, ascending
+  long looked_at = 0;                     ///< pairs of an end and a node that may disturb it: a measure of the work
 };
 
 /// The zones of all ends of fractures that are tips.

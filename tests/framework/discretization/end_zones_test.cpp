@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "framework/discretization/end_surroundings.hpp"
@@ -128,6 +129,25 @@ TEST(EndZones, OfAStraightCrackMeetInItsMiddle) {
       EXPECT_NEAR((mesh.nodes[zones.end[node]] - (place < 0 ? -along : along).eval()).norm(), 0, 1e-9) << place;
       EXPECT_EQ(zones.weight[node], 1) << place;
     }
+}
+
+// Beside n short cracks, an end looks at its neighbours only: with four times as many cracks the work is four times as
+// much, and not sixteen.
+TEST(EndZones, OfManyCracksLookAtTheirNeighbours) {
+  const auto work_per_end = [](int rows) {
+    Geometry geometry = box(0, 3 * rows, 0, 3 * rows);
+    for (int i = 0; i < rows * rows; ++i) {
+      const Point from(3 * (i % rows) + 1, 3 * (i / rows) + 1);
+      geometry.fractures.push_back(fracture("crack_" + std::to_string(i), {from, from + Point(1, 0)}));
+    }
+    const EndZones zones =
+        end_zones(generate_mesh(geometry, {.kind = MeshOptions::Kind::structured, .cells = {{3 * rows, 3 * rows}}}));
+    EXPECT_EQ(zones.cells.size(), 2 * static_cast<std::size_t>(rows * rows));
+    return static_cast<double>(zones.looked_at) / (2 * rows * rows);
+  };
+  // The square of 16 cells around an end holds parts of 36 cracks with 2 nodes each, or 33 nodes of sides as well.
+  EXPECT_LE(work_per_end(20), 36 * 2 + 33);
+  EXPECT_LE(work_per_end(40), 36 * 2 + 33);
 }
 
 }  // namespace
