@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 from stress_state import P, at_rest, change
-from stress_suite import check_growing, check_heat, check_wells, growing, heat, limited_wells, physics, ranges, written
+from stress_suite import check_growing, check_heat, check_wells, growing, heat, limited_wells, physics, ranges, well_shares, written
 
 
 class Growing(unittest.TestCase):
@@ -171,8 +171,12 @@ class Wells(unittest.TestCase):
 
     def at_rest(self):
         instant = at_rest()
-        instant.fractures.cell_data["conduit.pressure[Pa]"] = np.full(4, 3e6)
-        instant.fractures.cell_data["rock.wall_traction.normal[Pa]"] = instant.fractures.cell_data["contact.traction.normal[Pa]"] - 3e6
+        size = physics.length(self.P) * self.P["aperture"] / physics.end(self.P)
+        # Beside the well, at the end of two cells of 0.5 m: half of its rate flows 0.25 m to each side, q/2 = a^3/12 mu dp/(0.25 m).
+        aperture = instant.fractures.cell_data["conduit.aperture[m]"][1]
+        self.drop = 0.3 * size / 2 * 0.25 * 12 * self.P["viscosity"] / aperture ** 3
+        instant.fractures.cell_data["conduit.pressure[Pa]"] = np.full(4, 3e6 - self.drop)
+        instant.fractures.cell_data["rock.wall_traction.normal[Pa]"] = instant.fractures.cell_data["contact.traction.normal[Pa]"] - 3e6 + self.drop
         return instant
 
     def history(self):
@@ -193,8 +197,9 @@ class Wells(unittest.TestCase):
         size = physics.length(self.P) * self.P["aperture"] / physics.end(self.P)
         for column, change_of, text in (("feed.pressure[Pa]", -1e4, "within its limit"), ("feed.pressure[Pa]", 1e4, "beyond its limit"),
                                         ("feed.rate[m^2/s]", 0.8 * size, "more than"), ("feed.rate[m^2/s]", -0.4 * size, "more than 0"),
-                                        ("plant.rate[m^2/s]", 0.1 * size, "within its limit"), ("plant.pressure[Pa]", 1e4, "by its index"),
-                                        ("feed.pressure[Pa]", 1e4, "beside")):
+                                        ("plant.rate[m^2/s]", 0.1 * size, "within its limit"), ("plant.pressure[Pa]", 1e4, "at its point"),
+                                        ("plant.pressure[Pa]", 1.0, "at its point"), ("feed.pressure[Pa]", -0.1, "at its point"),
+                                        ("feed.pressure[Pa]", 1e4, "at its point")):
             history = self.history()
             history["wells." + column] = history["wells." + column] + change_of
             failures = check_wells.failures(self.P, [self.at_rest()], history)
@@ -202,6 +207,30 @@ class Wells(unittest.TestCase):
         history = self.history()
         history["fluid_injected[m^2]"] = history["fluid_injected[m^2]"] * (1 + 1e-6)
         self.assertEqual(len(check_wells.amount(self.P, [self.at_rest()], history)), 1)
+
+    def test_a_well_in_a_cell_shares_as_the_fracture_conducts(self):
+        """At 0.2 m of 0.25 m from the centre to the end, beside a cell of twice the aperture: as two tubes in series from the place."""
+        lines = self.at_rest().fractures
+        aperture = np.array([1e-3, 1e-3, 2e-3, 1e-3])
+        fracture = well_shares.Fracture(lines, 1, np.array([1.95, 2.0]), 1e-3)
+        own, other = 1e-3 + 0.5e-3 / 2, 2e-3 - 0.5e-3 / 2  # the opening is linear from centre to centre
+        back, ahead = (0.2 * 12e-3 / own ** 3, 0.05 * 12e-3 / own ** 3 + 0.25 * 12e-3 / other ** 3)  # resistances to both centres
+        shares = fracture.shares(aperture)
+        self.assertAlmostEqual(shares[2], back / (back + ahead))
+        self.assertAlmostEqual(shares[1] + shares[2], 1)
+        self.assertAlmostEqual(fracture.rise(aperture) * (1 / back + 1 / ahead), 1)
+
+    def test_a_well_in_rock_shares_by_its_place(self):
+        """Among cells around an inner node the mean of centres is the place; beyond the last ones it is the nearest one before."""
+        rock = well_shares.Rock(self.at_rest().matrix)
+        for place in ((1.1, 0.9), (0.6, 1.2), (2.9, 3.1), (3.0, 1.0)):
+            home = int(np.argmin(np.hypot(*(rock.centres - place).T)))
+            shares = rock.shares(home, np.array(place))
+            self.assertTrue(min(shares.values()) >= 0)
+            self.assertTrue(np.allclose(sum(share * rock.centres[cell] for cell, share in shares.items()), place))
+        # The triangle (0.5, 0), (1, 0), (1, 0.5) has its centre 1/6 m above the side.
+        home = int(np.argmin(np.hypot(*(rock.centres - (5 / 6, 1 / 6)).T)))
+        self.assertEqual(rock.shares(home, np.array([5 / 6, 0.01])), {home: 1.0})
 
     def test_a_shut_well_may_have_more_than_its_limit(self):
         history = self.history()

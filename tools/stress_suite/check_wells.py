@@ -1,13 +1,13 @@
-"""Wells with limits, from history.csv and the written fields: what binds first, and the pressure of the cell around.
+"""Wells with limits, from history.csv and the written fields: what binds first, and the pressure at their points.
 
 A well that is to bring the rate Q > 0 and keep below the pressure P has q = Q and p <= P, or 0 <= q <= Q and p = P, or q = 0 and
-p >= P; for Q < 0 it is the mirror image. At its place the rate is index times the difference of pressures, or in a fracture
-without an index its pressure is that of the cell.
+p >= P; for Q < 0 it is the mirror image. At its place the rate is index times the difference from the pressure of the cells that
+share it (well_shares); in a fracture without an index the fracture itself resists between the place and their centres.
 """
 
 import numpy as np
 
-from . import limited_wells, physics
+from . import limited_wells, physics, well_shares
 
 PRECISION = 1e-8
 
@@ -67,33 +67,48 @@ def cell_around(p, well, instant):
     return int(np.argmin(distances)), True
 
 
-def cells_beside(cells, cell):
-    """The numbers of the cells in two rings around one, itself among them: in twisted meshes the centres of the first ring do not
-    surround every point of the cell."""
-    ring = np.isin(cells, cells[cell]).any(axis=1)
-    return np.flatnonzero(np.isin(cells, cells[ring]).any(axis=1))
+def aperture_before(p, instants, at):
+    """Of fracture cells at the start of the step that ends at an instant, or None where this is not written."""
+    if at == 0:
+        return np.full(len(instants[0].fractures.cells), p["aperture"]) if instants[0].follows else None
+    return instants[at - 1].on_fractures("conduit.aperture", "m") if instants[at].follows else None
+
+
+def around(p, well, instants, at):
+    """(pressures of the cells that share the rate of a well and their shares, Pa s/m^2 between them and the well), or None where
+    shares have not been written."""
+    instant, place, index = instants[at], np.array(limited_wells.place(p, well)), limited_wells.index(p, well)
+    cell, in_fracture = cell_around(p, well, instant)
+    if not in_fracture:
+        pressures, shares = instant.cell("pore.pressure[Pa]"), well_shares.Rock(instant.matrix).shares(cell, place)
+        return pressures[list(shares)], np.array(list(shares.values())), 1 / index
+    before = aperture_before(p, instants, at)
+    if before is None:
+        return None
+    fracture = well_shares.Fracture(instant.fractures, cell, place, p["viscosity"])
+    pressures, shares = instant.on_fractures("conduit.pressure", "Pa"), fracture.shares(before)
+    resistance = 1 / index if index is not None else fracture.rise(instant.on_fractures("conduit.aperture", "m"))
+    return pressures[list(shares)], np.array(list(shares.values())), resistance
 
 
 def exchange(p, instants, history):
-    """Rates are those of the index and the pressures around."""
+    """Rates are those of the index, or of the fracture up to the centres of cells, and of the pressures of the cells that share them."""
     found = []
     some_rate, some_pressure = (PRECISION * size for size in largest(p, instants, history))
     times = np.asarray(history["time[s]"])
     for name, well in p["wells"].items():
-        index = limited_wells.index(p, well)
-        if index is None and not well["in_fracture"]:
+        if limited_wells.index(p, well) is None and not well["in_fracture"]:
             continue  # it follows from the mesh
-        for instant in instants:
-            cell, in_fracture = cell_around(p, well, instant)
+        for at, instant in enumerate(instants):
             row = int(np.argmin(abs(times - instant.time)))
             pressure, q = column(history, name, "pressure", "Pa")[row], column(history, name, "rate", "m^2/s")[row]
-            pressures = (instant.on_fractures("conduit.pressure", "Pa") if in_fracture else instant.cell("pore.pressure[Pa]"))
-            # A well acts at its point: beside it is a mean of the pressures in the cells that surround the point.
-            around = pressures[cells_beside((instant.fractures if in_fracture else instant.matrix).cells, cell)]
-            drop = 0.0 if index is None else q / index
-            allowed = some_pressure + (0.0 if index is None else PRECISION * abs(drop) + some_rate / index)
-            if not around.min() - allowed <= pressure - drop <= around.max() + allowed:
-                found.append(f"well: {name} has {pressure:.9g} Pa beside {around.min():.9g} to {around.max():.9g} Pa, with a drop of {drop:.3g} Pa by its index, at t = {instant.time:.6g} s")
+            is_known = around(p, well, instants, at)
+            if is_known is None:
+                continue
+            pressures, shares, resistance = is_known
+            there, drop = pressures @ shares, resistance * q
+            if abs(pressure - drop - there) > some_pressure + PRECISION * abs(drop) + resistance * some_rate:
+                found.append(f"well: {name} has {pressure:.9g} Pa beside {there:.9g} Pa at its point, with a drop of {drop:.3g} Pa at its rate, at t = {instant.time:.6g} s")
     return found
 
 
