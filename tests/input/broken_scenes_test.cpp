@@ -2,6 +2,9 @@
 //   # expect: typo_key.yaml:5:10: unknown key 'permeabilty'
 //   # because: a misspelt parameter
 //   # over: flow.yaml
+//   # grade: A
+// The grade is that of a reader who had not seen the code: A says what is wrong, where, why and what to do; B lacks one
+// of them, or is clumsy; C lacks two, or misleads; '-': the message has changed since.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -58,23 +58,30 @@ class Scan {
   void read_indentation(const std::string& line, std::size_t first, const Origin& place) {
     std::string levels;
     bool is_less = false;
-    while (!levels_.empty() && levels_.back() > first) {
-      levels = fmt::format("{}{}{}", levels_.back(), levels.empty() ? "" : " or ", levels);
+    while (!levels_.empty() && levels_.back().indentation > first) {
+      levels = fmt::format("{}{}{}", levels_.back().indentation, levels.empty() ? "" : " or ", levels);
       levels_.pop_back();
       is_less = true;
     }
-    if (is_less && (levels_.empty() || levels_.back() != first)) {
-      if (!levels_.empty()) levels = fmt::format("{} or {}", levels_.back(), levels);
+    if (is_less && (levels_.empty() || levels_.back().indentation != first)) {
+      if (!levels_.empty()) levels = fmt::format("{} or {}", levels_.back().indentation, levels);
       mistake_.emplace(place, fmt::format("the line is indented by {} {}", first, first == 1 ? "space" : "spaces"),
                        fmt::format("the lines above, to which it could belong, by {}", levels),
                        "indent it as those that it belongs to");
       return;
     }
-    if (levels_.empty() || levels_.back() != first) levels_.push_back(first);
+    const bool is_item = line.compare(first, 2, "- ") == 0 || line.substr(first) == "-";
+    if (levels_.empty() || levels_.back().indentation != first) levels_.push_back({first, is_item, place});
+    if (levels_.back().is_list && !is_item) {
+      mistake_.emplace(levels_.back().where, "'- ' begins a list",
+                       fmt::format("line {}, as deep as it, has none: it is a key of a map", number_),
+                       "write '- ' before all of them, or before none");
+      return;
+    }
     for (std::size_t at = first; line.compare(at, 2, "- ") == 0;) {  // what stands in an item is a level of its own
       at = line.find_first_not_of(' ', at + 1);
       if (at == std::string::npos) return;
-      levels_.push_back(at);
+      levels_.push_back({at, line.compare(at, 2, "- ") == 0, place});
     }
   }
 
@@ -125,12 +132,78 @@ class Scan {
   char quote_ = 0;  ///< the mark of the text that is being read, or 0
   Origin quote_at_;
   std::vector<Open> open_;
-  std::vector<std::size_t> levels_;        ///< of indentation, of the maps and lists that a line may belong to
+  /// A map or list that a line may belong to.
+  struct Level {
+    std::size_t indentation;
+    bool is_list;
+    Origin where;
+  };
+  std::vector<Level> levels_;
   std::optional<std::size_t> block_text_;  ///< the indentation of the key of a block of text (| or >)
   std::optional<InputError> mistake_;
 };
 
+/// A line with its number, without what follows '#'.
+struct Line {
+  int number = 0;
+  std::string text;
+  std::size_t first() const { return text.find_first_not_of(' '); }
+  bool is_blank() const { return first() == std::string::npos; }
+  std::string words() const { return text.substr(first()); }
+  /// Whether it has a key: "a: 1", "a:", "- a".
+  bool has_key() const {
+    const std::string word = words();
+    return word.find(": ") != std::string::npos || word.back() == ':' || word.starts_with("- ") || word == "-";
+  }
+};
+
+/// The last lines up to this number that are not blank, the lowest first.
+std::vector<Line> lines_up_to(const std::string& text, int number) {
+  std::vector<Line> lines;
+  std::istringstream stream(text);
+  Line line;
+  while (line.number < number && std::getline(stream, line.text)) {
+    ++line.number;
+    line.text.erase(std::min(line.text.size(), line.text.find(" #")));
+    line.text.erase(line.text.find_last_not_of(" \r") + 1);
+    if (!line.is_blank() && line.text[line.first()] != '#') lines.insert(lines.begin(), line);
+  }
+  return lines;
+}
+
+/// What a line without a key was meant to be.
+InputError lack_of_key(const Line& line, const std::string& source) {
+  const std::string words = line.words();
+  const auto with = [&](std::size_t at, std::size_t length, const char* sign) {
+    std::string before = words.substr(0, at), after = words.substr(at + length);
+    before.erase(before.find_last_not_of(' ') + 1);
+    after.erase(0, std::min(after.size(), after.find_first_not_of(' ')));
+    return "write '" + before + sign + after + "'";
+  };
+  const Origin where{source, line.number, static_cast<int>(line.first()) + 1};
+  const std::string what = quoted(words) + " is no key with a value";
+  if (words.starts_with("//") || words.starts_with("%") || words.starts_with(";"))
+    return {where, what, "comments begin with '#'", "write '#'"};
+  if (const std::size_t colon = words.find(':'); colon != std::string::npos)
+    return {where, what, "no blank stands behind its ':'", with(colon, 1, ": ")};
+  if (const std::size_t equals = words.find('='); equals != std::string::npos)
+    return {where, what, "':' stands between the two, not '='", with(equals, 1, ": ")};
+  return {where, what, "a line here has a ':' behind its key", "write 'KEY: VALUE', or '#' before a comment"};
+}
+
 }  // namespace
+
+std::optional<InputError> mistake_above(const std::string& text, int line, const std::string& source) {
+  const std::vector<Line> lines = lines_up_to(text, line);
+  constexpr std::size_t most = 2;  // lines: the parser goes on to the next key before it refuses
+  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i)
+    if (!lines[i].has_key()) return lack_of_key(lines[i], source);
+  if (lines.size() < 2 || lines[0].first() <= lines[1].first() || lines[1].text.back() == ':') return std::nullopt;
+  return InputError({source, lines[0].number, static_cast<int>(lines[0].first()) + 1},
+                    fmt::format("the line is indented by {} spaces", lines[0].first()),
+                    fmt::format("the line above it, by {}, has its value already", lines[1].first()),
+                    "indent both alike, or move one of them");
+}
 
 std::optional<InputError> likely_mistake(const std::string& text, const std::string& source) {
   return Scan(text, source).mistake();

@@ -26,6 +26,7 @@ Node parse_yaml(const std::string& text, const std::string& source_name) {
     }
   } catch (const YAML::Exception& error) {
     if (const std::optional<InputError> mistake = likely_mistake(text, source_name)) throw *mistake;
+    if (const std::optional<InputError> mistake = mistake_above(text, error.mark.line + 1, source_name)) throw *mistake;
     throw InputError({source_name, error.mark.line + 1, error.mark.column + 1}, "malformed YAML", error.msg,
                      "check indentation, colons, quotes and brackets here and just above");
   }

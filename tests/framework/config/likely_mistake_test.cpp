@@ -48,6 +48,27 @@ TEST(LikelyMistake, NamesABracketThatIsNotClosed) {
             "s.yaml:2:6: the '{' is never closed (the text ends in it) write '}' where it ends");
 }
 
+TEST(LikelyMistake, NamesTheLineThatHasNoKey) {
+  EXPECT_EQ(error("a:\n  young_modulus:20 GPa  # stiff\n\n  b: 1\n"),
+            "s.yaml:2:3: 'young_modulus:20 GPa' is no key with a value (no blank stands behind its ':') write "
+            "'young_modulus: 20 GPa'");
+  EXPECT_EQ(error("a:\n  b: 1\n  c = 0.25\n  d: 1\n"),
+            "s.yaml:3:3: 'c = 0.25' is no key with a value (':' stands between the two, not '=') write 'c: 0.25'");
+  EXPECT_THAT(error("a:\n  // text\n  d: 1\n"), HasSubstr("s.yaml:2:3: '// text' is no key with a value (comments"));
+}
+
+TEST(LikelyMistake, NamesTheLineThatIsDeeperThanAValue) {
+  EXPECT_EQ(error("a:\n  b:\n    c: 1\n  d: 5 MPa\n    e: 2\n"),
+            "s.yaml:5:5: the line is indented by 4 spaces (the line above it, by 2, has its value already) indent both "
+            "alike, or move one of them");
+}
+
+TEST(LikelyMistake, NamesTheListAmongKeys) {
+  EXPECT_EQ(error("a:\n  - name: b\n    c: 1\n  d:\n    e: 1\n"),
+            "s.yaml:2:3: '- ' begins a list (line 4, as deep as it, has none: it is a key of a map) write '- ' before "
+            "all of them, or before none");
+}
+
 TEST(LikelyMistake, NamesATab) {
   EXPECT_EQ(error("a:\n\tb: 1\n"), "s.yaml:2:1: malformed YAML (a tab stands in the indentation) use spaces");
 }
