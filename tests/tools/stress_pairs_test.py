@@ -11,7 +11,7 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-from stress_suite.pairs import answers, features, matrix, unanswered  # noqa: E402
+from stress_suite.pairs import answers, features, frame, matrix, unanswered  # noqa: E402
 
 SPREKK = Path(sys.argv.pop(1)).resolve()
 NAMED = {feature.name: feature for feature in features.FEATURES}
@@ -45,6 +45,13 @@ class StressPairs(unittest.TestCase):
                 self.assertTrue(answers.same_times(answer, coulomb))
                 self.assertLess(answers.difference(answer, coulomb)[0], 1e-8)
                 self.assertGreater(answer.figures["slip.t[m]"][-1], 1e-5)
+
+    def test_multipliers_in_turn_have_twins(self):
+        pair = tuple(NAMED[name] for name in MULTIPLIERS[1])
+        answer = self.runs.of(pair)
+        for twin in ({"where": frame.Mirrored}, {"where": frame.Turned}, {"scale": matrix.DISTURBED}):
+            self.assertLess(answers.difference(self.runs.of(pair, **twin), answer)[0], 1e-8, twin)
+        self.assertLess(answers.difference(self.runs.of((*pair, NAMED["two processes"])), answer)[0], 1e-8)
 
     def test_what_has_no_answer_says_what_would_help(self):
         """Parted walls and a fluid that is hardly compressible: nothing is proposed that the scene has already."""

@@ -74,9 +74,18 @@ class Draft:
         injection = components["conduit"].get("injection", {}).get("well")
         if injection and not isinstance(injection["rate"], dict):
             components["conduit"]["injection"] = {"well": {**injection, "rate": f"{injection['rate'] * self.scale!r} m^2/s"}}
+        couplers = [dict(options) for options in self.couplers]
+        for advection in (options for options in couplers if options["type"] == "heat_advection"):
+            of_well = advection.pop("injected")
+            injected = dict(of_well) if self.driven else {}
+            if "wells" in components:  # whose fluid carries heat, too
+                advection["between"] = [*advection["between"], "wells"]
+                injected["feed"] = {"temperature": "320 K"}
+            if injected:
+                advection["injected"] = injected
         if not self.driven:
             components["conduit"].pop("injection", None)
         return {"name": "pair", "geometry": self.geometry, "mesh": self.mesh, "materials": self.materials, "components": components,
-                "couplers": self.couplers, "schedule": self.steps(),
+                "couplers": couplers, "schedule": self.steps(),
                 "time": self.times(),
                 "output": {"probes": self.probes, **({"times": [f"{time!r} s" for time in self.meets]} if self.meets else {})}, **self.more}

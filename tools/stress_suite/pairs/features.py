@@ -121,7 +121,7 @@ def settle_all(draft):
     draft.more["start"] = {"settle": [name for members in draft.groups.values() for name in members]}
 
 
-for listed in (["pore"], ["pore", "conduit"], ["rock", "contact"], ["pore", "rock"], ["pore", "conduit", "rock", "contact"]):
+for listed in (["pore"], ["pore", "conduit"], ["rock", "contact"], ["pore", "rock", "contact"], ["pore", "conduit", "rock", "contact"]):
     setter("physics", "settle " + " ".join(listed), "more.start", {"settle": listed})
 
 
@@ -233,8 +233,7 @@ def heat(draft):
                                 "boundary": {f.side("right"): {"temperature": "350 K"}}}
     draft.components["water"] = {"type": "fracture_heat/tpfa", "aperture": {"fractures": {"main": "1 mm", "other": "0.4 mm", "default": "0.1 mm"}},
                                  "conductivity": "0.6 W/(m*K)", "heat_capacity": "4.2e6 J/(m^3*K)", "initial_temperature": "350 K"}
-    injected = {"injected": {"well": {"temperature": "300 K"}}} if draft.driven else {}
-    draft.couplers += [{"type": "heat_advection", "between": ["pore", "conduit", "heat", "water"], **injected},
+    draft.couplers += [{"type": "heat_advection", "between": ["pore", "conduit", "heat", "water"], "injected": {"well": {"temperature": "300 K"}}},
                        {"type": "heat_exchange", "between": ["heat", "water"]}]
     draft.probes["T_rock"] = {"of": "heat.temperature", "at": f.point(4.5, 4.5)}
     draft.probes["T_main"] = {"of": "water.temperature", "at": f.point(5.5, 3)}

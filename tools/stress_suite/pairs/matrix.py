@@ -64,7 +64,9 @@ def compare(runs, features, answer):
             found.append(f"{name} moves by {moved:.2g} after everything was settled")
     draft = answers.draft_of(features)
     if draft.restarted:
-        return found + like(runs.of(without(features, "restart"), meets=draft.meets), answer, TO_THE_BIT, "the run that is not interrupted")
+        # On several processes two runs of one scene differ in their last digits: MUMPS adds what others send in the order in which it arrives.
+        tolerance = TO_THE_BIT if draft.processes == 1 else TOLERANCES["neutral"]
+        return found + like(runs.of(without(features, "restart"), meets=draft.meets), answer, tolerance, "the run that is not interrupted")
     if chosen(features, "time"):
         return found + falls(runs, features, physics)
     if chosen(features, "half"):
