@@ -21,6 +21,7 @@ inline UsualRange usual_friction() { return {0.03, 3, "Byerlee 1978; Barton and 
 inline UsualRange usual_dilation_angle() { return {0, 0.8, "Barton and Choubey 1977"}; }  ///< rad
 inline UsualRange usual_strength() { return {100, 5e8, "Jaeger et al. 2007"}; }  ///< Pa, cohesion and tensile strength
 inline UsualRange usual_aperture() { return {1e-8, 0.1, "Snow 1970; Zimmerman and Bodvarsson 1996"}; }  ///< m
+inline UsualRange usual_zone_width() { return {1e-8, 20, "Snow 1970; zones of fractures: Hydrocoin 1988, level 1, case 2"}; }  ///< m
 inline UsualRange usual_transmissivity() { return {1e-25, 1e-4, "Snow 1970, by the cubic law"}; }  ///< m^3
 inline UsualRange usual_joint_stiffness() { return {1e7, 1e15, "Bandis et al. 1983"}; }  ///< Pa/m
 inline UsualRange usual_toughness() { return {1e3, 2e8, "Atkinson and Meredith 1987; Rivalta et al. 2015"}; }  ///< Pa m^0.5

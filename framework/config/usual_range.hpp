@@ -1,6 +1,8 @@
 // The values that a parameter has as a rule, beside those that are possible.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -15,12 +17,19 @@ struct UsualRange {
   const char* source = "";
   /// Zero is usual: it leaves an effect out.
   bool contains(double value) const { return value == 0 || (value >= low && value <= high); }
+  /// How far outside the value is; 0 inside.
+  double distance(double value) const { return contains(value) ? 0 : std::max(low - value, value - high); }
 };
 
 /// Declares the usual range of a parameter that the spec has. A parameter that it has not is a std::logic_error.
 void usually(const Spec& spec, const std::string& parameter, const UsualRange& range);
+/// The same for maps of which a condition holds: the range of what is meant by the parameter there.
+void usually(const Spec& spec, const std::string& parameter, const UsualRange& range,
+             std::function<bool(const Node& map)> condition);
 /// The usual range of a parameter, or nullptr.
 const UsualRange* usual_range(const Spec& spec, const std::string& parameter);
+/// The one in this map.
+const UsualRange* usual_range(const Spec& spec, const std::string& parameter, const Node& map);
 UsualRange usual_angle();  ///< of a direction, rad: less than a full turn
 /// "from 1e+05 to 2e+11 Pa".
 std::string usual_text(const UsualRange& range, const std::string& unit);

@@ -395,7 +395,7 @@ std::vector<Quantity> Model::quantities() const {
 Notes Model::input_notes() const {
   Notes notes = scene_.notes;
   notes.of_input(scene_.time.start);
-  note_unusual_values(properties_of(scene_), notes);
+  note_unusual_values(properties_of(scene_, {mesh_, fields_, components_}), notes);
   for (const Part* part : parts_) part->note_input(notes);
   note_gaps(*schedule_, fields_, scene_.time, notes);
   std::vector<Component*> components;

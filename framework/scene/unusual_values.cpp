@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 
 #include "framework/config/data_reader.hpp"
+#include "framework/config/expression.hpp"
 #include "framework/config/number.hpp"
 #include "framework/config/quantity_scale.hpp"
 #include "framework/config/table.hpp"
@@ -17,11 +19,12 @@
 namespace sprekk {
 namespace {
 
-/// Whether the value is of order one, or zero, or a length: those are small beside a box of order one.
+/// Whether the value is of order one, or zero, or contains the width of a fracture, which is small beside a box of
+/// order one.
 bool is_of_order_one(const PropertyValue& property) {
   constexpr double most = 1e3;
   const double size = std::abs(property.value);
-  return property.unit == "m" || size == 0 || (size <= most && size * most >= 1);
+  return property.unit == "m" || property.unit == "m^3" || size == 0 || (size <= most && size * most >= 1);
 }
 
 std::string lower_case(std::string text) {
@@ -56,69 +59,124 @@ std::vector<std::string> usual_with_other_units(const PropertyValue& property) {
 
 namespace {
 
+/// Where and when a value holds.
+struct Extent {
+  std::vector<Place> places;
+  double from, to;  ///< s
+
+  /// The part of it with these places.
+  template <class Holds>
+  Extent where(const Holds& holds) const {
+    Extent part{{}, from, to};
+    std::ranges::copy_if(places, std::back_inserter(part.places), holds);
+    return part;
+  }
+};
+
+/// Whether a key of a map by name, a name or "joints_*", stands for a name.
+bool stands_for(const std::string& key, const std::string& name) {
+  return key == name || (key.size() > 1 && key.back() == '*' && name.starts_with(key.substr(0, key.size() - 1)));
+}
+
 /// Collects the values of properties from the tree of a scene that has been read, and so is right.
 class Properties {
  public:
-  explicit Properties(const Scene& scene) : scene_(scene) {
-    const Box& box = scene.geometry.box;  // of no size where a mesh file takes its place
-    for (const double x : {0.0, 0.5, 1.0})
-      for (const double y : {0.0, 0.5, 1.0})
-        samples_.push_back({Point(box.low + Point(x, y).cwiseProduct(box.size())), 0, scene.time.start});
+  Properties(const Scene& scene, const PlacesOfParts& places) : scene_(scene), mesh_(places.mesh()) {
+    for (const Fracture& fracture : mesh_.fractures) fracture_names_.push_back(fracture.name);
     for (const Spec& spec : scene_section_specs())
-      if (const Node* section = scene.whole.find(spec.name())) read_map(spec, *section);
+      if (const Node* section = scene.whole.find(spec.name())) read_map(spec, *section, always({}));
     const Node* components = scene.whole.find("components");
     for (const Scene::ComponentEntry& component : scene.components)
       read_map(Registry::instance().component(component.type, component.origin).spec(),
-               *components->find(component.name));
-    if (const Node* couplers = scene.whole.find("couplers"))
-      for (const Node& coupler : couplers->items)
-        read_map(Registry::instance().coupler(coupler.find("type")->scalar, coupler.origin).spec(), coupler);
+               *components->find(component.name), always(places.of({component.name})));
+    for (const Scene::CouplerEntry& coupler : scene.couplers)
+      for (const Node& node : scene.whole.find("couplers")->items)
+        if (node.origin.text() == coupler.origin.text())
+          read_map(Registry::instance().coupler(coupler.type, coupler.origin).spec(), node,
+                   always(places.of(coupler.between)));
   }
 
   std::vector<PropertyValue> all() && { return std::move(all_); }
 
  private:
-  void read_map(const Spec& spec, const Node& map) {
+  Extent always(std::vector<Place> places) const { return {std::move(places), scene_.time.start, scene_.time.end}; }
+
+  void read_map(const Spec& spec, const Node& map, const Extent& extent) {
     const Node* const materials = scene_.whole.find("materials");
     for (const Parameter& parameter : spec.parameters()) {
       const Node* value = map.find(parameter.name);
       if (!value && parameter.about.material && materials) value = materials->find(parameter.name);
       if (!value) continue;
-      if (const UsualRange* usual = usual_range(spec, parameter.name))
-        read_value({parameter.name, "", parameter.about.unit, 0, *usual, {}}, *value);
+      if (const UsualRange* usual = usual_range(spec, parameter.name, map))
+        read_value({parameter.name, "", parameter.about.unit, 0, "", *usual, {}}, *value, extent);
       if (!parameter.inner) continue;
-      if (parameter.kind == "section") read_map(*parameter.inner, *value);
+      if (parameter.kind == "section") read_map(*parameter.inner, *value, extent);
       for (const Node::Entry& entry : value->entries)
-        if (parameter.kind == "named sections") read_map(*parameter.inner, entry.value);
-      for (const Node& item : value->items) read_map(*parameter.inner, item);
+        if (parameter.kind == "named sections") read_map(*parameter.inner, entry.value, extent);
+      for (const Node& item : value->items) read_map(*parameter.inner, item, extent);
     }
   }
 
   /// All parts of a datum, in any of its forms.
-  void read_value(const PropertyValue& property, const Node& node) {
-    if (node.is_scalar()) return read_scalar(property, node);
-    for (const Node& window : node.items) read_value(property, window);
+  void read_value(const PropertyValue& property, const Node& node, const Extent& extent) {
+    if (node.is_scalar()) return read_scalar(property, node, extent);
+    for (const Node& window : node.items) read_value(property, window, extent);
     if (const Node* table = node.find("table")) return read_table_of(property, *table, node);
     if (const Node* column = node.find("column")) return read_column(property, *column);
-    for (const char* places : {"regions", "fractures"})
-      if (const Node* values = node.find(places))
-        for (const Node::Entry& entry : values->entries) read_value(property, entry.value);
+    if (const Node* values = node.find("regions"))
+      read_named(property, *values, extent, [&](const Place& x) { return mesh_.region_names[x.region]; });
+    if (const Node* values = node.find("fractures"))
+      read_named(property, *values, extent,
+                 [&](const Place& x) { return x.fracture == none ? "" : fracture_names_[x.fracture]; });
+    const Extent window = within_window(node, extent);
     for (const char* part : {"value", "xx", "yy", "along", "across", "default"})
-      if (const Node* value = node.find(part)) read_value(property, *value);
+      if (const Node* value = node.find(part)) read_value(property, *value, window);
     if (const Node* angle = node.find("angle"))
-      read_value({property.name + ".angle", "", "rad", 0, usual_angle(), {}}, *angle);
+      read_value({property.name + ".angle", "", "rad", 0, "", usual_angle(), {}}, *angle, extent);
   }
 
-  void read_scalar(const PropertyValue& property, const Node& node) {
-    const Data data = parse_data(node.scalar, property.unit, node.origin, property.name);
-    std::optional<double> told;  // the least usual value
-    for (const Place& place : data.is_constant() ? std::vector<Place>(1) : samples_) try {
-        const double value = data.at(place);
-        if (!told || !property.usual.contains(value)) told = value;
-      } catch (const DataError&) {
-        // It has no value there; where it is needed, this is an error.
+  Extent within_window(const Node& node, Extent extent) const {
+    if (const Node* from = node.find("from")) extent.from = std::max(extent.from, read_number(*from, "s", {}, "from"));
+    if (const Node* to = node.find("to")) extent.to = std::min(extent.to, read_number(*to, "s", {}, "to"));
+    return extent;
+  }
+
+  /// Each entry holds where the name of a place is its own, and the default everywhere else.
+  template <class NameAt>
+  void read_named(const PropertyValue& property, const Node& values, const Extent& extent, const NameAt& name_at) {
+    for (const Node::Entry& entry : values.entries)
+      if (entry.value.is_scalar() && leading_number(entry.value.scalar)) {
+        read_value(property, entry.value, extent);  // a number is the same everywhere
+      } else if (entry.key == "default") {
+        read_value(property, entry.value, extent.where([&](const Place& x) {
+          return std::ranges::none_of(values.entries,
+                                      [&](const Node::Entry& other) { return stands_for(other.key, name_at(x)); });
+        }));
+      } else {
+        read_value(property, entry.value,
+                   extent.where([&](const Place& x) { return stands_for(entry.key, name_at(x)); }));
       }
-    if (told) add(property, *told, node.scalar, node.origin);
+  }
+
+  /// An expression takes the most unusual of its values.
+  void read_scalar(PropertyValue property, const Node& node, const Extent& extent) {
+    const Data data = parse_data(node.scalar, property.unit, node.origin, property.name);
+    if (data.is_constant()) return add(std::move(property), data.at({}), node.scalar, node.origin);
+    std::vector<double> times = {extent.from};
+    if (data.depends_on_time()) times.insert(times.end(), {(extent.from + extent.to) / 2, extent.to});
+    std::optional<double> told;
+    for (Place place : extent.places)
+      for (const double time : times) try {
+          place.t = time;
+          const double value = data.at(place);
+          if (told && property.usual.distance(value) <= property.usual.distance(*told)) continue;
+          told = value;
+          property.holds = fmt::format(", {:.4g}{}{} at {}", value, property.unit.empty() ? "" : " ", property.unit,
+                                       place_text(place));
+        } catch (const DataError&) {
+          // It has no value there; where it is needed, this is an error.
+        }
+    if (told) add(std::move(property), *told, node.scalar, node.origin);
   }
 
   void read_table_of(const PropertyValue& property, const Node& file, const Node& node) {
@@ -160,13 +218,16 @@ class Properties {
   }
 
   const Scene& scene_;
-  std::vector<Place> samples_;
+  const Mesh& mesh_;
+  std::vector<std::string> fracture_names_;
   std::vector<PropertyValue> all_;
 };
 
 }  // namespace
 
-std::vector<PropertyValue> properties_of(const Scene& scene) { return Properties(scene).all(); }
+std::vector<PropertyValue> properties_of(const Scene& scene, const PlacesOfParts& places) {
+  return Properties(scene, places).all();
+}
 
 void note_unusual_values(const std::vector<PropertyValue>& properties, Notes& notes) {
   const bool may_have_no_dimensions = std::ranges::all_of(properties, is_of_order_one);
@@ -181,8 +242,8 @@ void note_unusual_values(const std::vector<PropertyValue>& properties, Notes& no
                             property.where.text(), quoted(property.name), quoted(property.text), range));
     else
       notes.add("unusual " + property.name + " at " + property.where.text(),
-                fmt::format("{}: {} is {} (as a rule it is {}: {}) {}", property.where.text(), quoted(property.name),
-                            quoted(property.text), range, property.usual.source, advice(property)));
+                fmt::format("{}: {} is {}{} (as a rule it is {}: {}) {}", property.where.text(), quoted(property.name),
+                            quoted(property.text), property.holds, range, property.usual.source, advice(property)));
   }
 }
 

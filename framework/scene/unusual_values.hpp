@@ -6,26 +6,30 @@
 
 #include "framework/assembly/notes.hpp"
 #include "framework/config/usual_range.hpp"
+#include "framework/scene/places_of_parts.hpp"
 #include "framework/scene/scene.hpp"
 
 namespace sprekk {
 
 /// A value that a scene gives to a property with a usual range.
 struct PropertyValue {
-  std::string name;  ///< of the parameter
-  std::string text;  ///< as it is written
-  std::string unit;  ///< SI
-  double value = 0;  ///< in this unit
+  std::string name;   ///< of the parameter
+  std::string text;   ///< as it is written
+  std::string unit;   ///< SI
+  double value = 0;   ///< in this unit
+  std::string holds;  ///< of an expression: its value, and where and when it has it
   UsualRange usual;
   Origin where;
 };
 
 /// The values of all properties with a usual range that a scene gives: of numbers, of all parts of a datum (by region,
-/// in windows, in tables), and of expressions in the corners and the middle of the box.
-std::vector<PropertyValue> properties_of(const Scene& scene);
+/// in windows, in tables), and of expressions the most unusual value in the cells that they are for, at the beginning,
+/// in the middle and at the end of the time for which they hold.
+std::vector<PropertyValue> properties_of(const Scene& scene, const PlacesOfParts& places);
 
-/// Adds a note for each value outside of its range. Where all values are of order one, but for lengths, such a scene is
-/// taken for one without dimensions, and has a single note on those with a unit.
+/// Adds a note for each value outside of its range. Where all values are of order one, but for widths and
+/// transmissivities of fractures, such a scene is taken for one without dimensions, and has a single note on those with
+/// a unit.
 void note_unusual_values(const std::vector<PropertyValue>& properties, Notes& notes);
 
 /// Other units of the number in "40 Pa" with which it would be in the usual range: "40 MPa", "40 GPa"; none for an

@@ -67,10 +67,10 @@ class Mandel:
 
 def barry_mercer(x, y, dt, steps, modes=400):
     """p and u after backward-Euler steps from rest, with the rate of the well at the end of each step: no time error is left."""
-    mobility, shear, poisson = 1e-2, 1e5 / 2.2, 0.1
+    mobility, shear, poisson = 1e-8, 1e5 / 2.2, 0.1
     modulus = 2 * shear * (1 - poisson) / (1 - 2 * poisson)  # lambda + 2 G
     storage, diffusivity = 1 / modulus, mobility * modulus  # S = 0, alpha = 1: S* = 1/M_v
-    rate, frequency = 20, 1022.727272727272727
+    rate, frequency = 2e-5, 1.022727272727272727e-3
     l = np.arange(1, modes + 1) * np.pi
     k2 = l[:, None] ** 2 + l[None, :] ** 2
     source = 4 * rate / storage * np.outer(np.sin(0.25 * l), np.sin(0.25 * l))

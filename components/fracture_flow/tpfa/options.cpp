@@ -30,6 +30,13 @@ Spec prescribed_spec(PrescribedPressure& prescribed) {
   return spec;
 }
 
+/// Whether the transmissivity does not follow from the aperture, which may then be the width of a zone of fractures.
+bool conducts_as_given(const Node& map) {
+  const Node *given = map.find("transmissivity"), *law = map.find("law");
+  const Node* type = law && law->is_map() ? law->find("type") : given;
+  return type && type->scalar == "constant";
+}
+
 Spec side_spec(EndCondition& end) {
   Spec spec("boundary condition of flow in fractures", "For fractures that end on this side: one of the two.");
   spec.data("pressure", end.pressure,
@@ -75,6 +82,7 @@ Spec Options::spec() {
              .required = true,
              .fixed = "it is what the run starts from, and what opens adds to it"});
   usually(spec, "initial_aperture", usual_aperture());
+  usually(spec, "initial_aperture", usual_zone_width(), conducts_as_given);
   spec.data("initial_pressure", initial_pressure,
             {.unit = "Pa", .doc = "Pressure at the start.", .fixed = "it is what the run starts from"});
   Spec grown("grown", "What the cells of a fracture that grows start with.");
