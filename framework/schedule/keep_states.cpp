@@ -70,7 +70,7 @@ std::optional<Newton::Loss> Newton::find_loss(double time) {
     first += motion.size();
     if (motion.norm() <= most) continue;
     most = motion.norm();
-    loss = {part.part, part.part->tell_loss({time, pair->value, std::move(part.values.values), motion})};
+    loss = {part.part, time, part.part->tell_loss({time, pair->value, std::move(part.values.values), motion})};
   }
   return loss;
 }
