@@ -338,7 +338,11 @@ StepStatus IterateStep::make_passes(const StepTime& step) {
     const StepStatus inner = misses_balances_alone
                                  ? inside_->run_until(step, [&] { return coupled_residual(step).converged; })
                                  : inside_->run(step);
-    if (!inner.converged) return {false, fmt::format("pass {}: {}", pass, inner.reason), pass};
+    if (!inner.converged) {
+      StepStatus failed{false, fmt::format("pass {}: {}", pass, inner.reason), pass};
+      if (inner.lost_at) losses_.judge(step, *inner.lost_at, failed);
+      return failed;
+    }
     of_newton = std::max(of_newton, inner.effort());
     std::uint64_t state = 0;
     for (const Part* part : parts_) state = state * 1000003 + part->discrete_state();

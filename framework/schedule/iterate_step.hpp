@@ -13,6 +13,7 @@
 #include "framework/schedule/convergence_criteria.hpp"
 #include "framework/schedule/fallback_solve.hpp"
 #include "framework/schedule/passes/diverging_steps.hpp"
+#include "framework/schedule/passes/losses_in_passes.hpp"
 #include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/step_history.hpp"
@@ -105,6 +106,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   std::string history_;                       ///< what its values in a checkpoint begin with
   std::optional<FallbackSolve> fallback_;
   DivergingSteps diverging_;
+  LossesInPasses losses_;
 };
 
 }  // namespace sprekk

@@ -83,7 +83,7 @@ std::optional<Newton::Loss> Newton::find_loss(double time) {
     first += motion.size();
     if (motion.norm() <= most) continue;
     most = motion.norm();
-    loss = {part, part->tell_loss({time, pair->value, std::move(values.values), motion})};
+    loss = {part, time, part->tell_loss({time, pair->value, std::move(values.values), motion})};
   }
   return loss;
 }

@@ -278,6 +278,7 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     status.iterations += path.iterations;
     if (lost_ && mode == SearchMode::piecewise) {
       status.reason = lost_->told;
+      status.lost_at = lost_->time;
       status.is_hopeless = least_iterations_ == 0;  // in an iteration other unknowns are held
       break;
     }

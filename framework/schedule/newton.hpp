@@ -117,6 +117,7 @@ class Newton {
   /// Motion that runs away.
   struct Loss {
     const Softening* part;  ///< whose places move
+    double time;            ///< s
     std::string told;
   };
   /// Whether the free values of all parts have lost their stability, also over the shortest time. The derivatives of

@@ -309,7 +309,7 @@ StepStatus SolveStep::run(const StepTime& step) {
   if (status.converged)
     inexact_ = 0;
   else
-    status.converged = is_good_enough(step);
+    status.converged = !status.lost_at && is_good_enough(step);
   if (!status.converged && response_ && !response_->is_determined())
     status.reason +=
         " (the unknowns that wait are not determined while those of this step are held, so they have no response)";

@@ -1,6 +1,7 @@
 // How a step of the schedule ended.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace sprekk {
@@ -15,6 +16,8 @@ struct StepStatus {
   /// those.
   int of_newton = -1;
 
+  /// s; the time from which on there is no equilibrium while unknowns of other solves are held, if that is why not.
+  std::optional<double> lost_at = std::nullopt;
   bool is_hopeless = false;  ///< shorter steps from the same start are known to fail as well
 
   /// The measure for adaptive steps. Passes are none: where systems are split, shorter steps need as many, or more.

@@ -177,7 +177,8 @@ StepStatus SubcycleStep::take(const std::vector<Piece>& pieces, const Course& co
     status.iterations = std::max(status.iterations, inner.iterations);
     status.of_newton = std::max(status.of_newton, inner.effort());
     status.converged = inner.converged;
-    status.is_hopeless = inner.is_hopeless && options_.is_implied;
+    status.is_hopeless = inner.is_hopeless && (options_.is_implied || inner.lost_at);
+    status.lost_at = inner.lost_at;
     if (!inner.converged)
       status.reason = options_.count > 1
                           ? fmt::format("substep {}: {}", k * options_.count / pieces.size() + 1, inner.reason)

@@ -81,6 +81,36 @@ time: {{end: 1 s, step: 0.05 s}}
 """
 
 
+def injected(diffusivity=10.0, angle=0.0, sign=1, factor=1.0, schedule="{solve: [rock, contact, conduit]}"):
+    """Fluid enters the middle of a fault of 6 m under uniform shear, which it lets slip and lose its cohesion: in units of the shear modulus, W = 0.8,
+    whatever the pressure. The wider the diffusivity (m^2/s), the wider the peak of the pressure."""
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    turn = np.array([[c, -s], [s, c]])
+    held = turn @ np.array([[0, sign * 0.013 * factor], [0, -0.02 / 3]]) @ turn.T
+    side = "{displacement: [" + ", ".join(f'"({row[0]})*x + ({row[1]})*y"' for row in held) + "]}"
+    ends = ", ".join(f"[{e * 3 * c}, {e * 3 * s}]" for e in (-1, 1))
+    # A rate q into both halves has q/K sqrt(D t/pi) at its place: 0.012 at 1 s.
+    rate = 0.012 * 1e-3 * diffusivity / np.sqrt(diffusivity / np.pi)
+    return f"""
+geometry: {{box: {{x: [-30 m, 30 m], y: [-30 m, 30 m]}}, fractures: {{fault: {{points: [{ends}]}}}}}}
+mesh: {{size: 6 m, fracture_size: 0.1, growth: 0.2}}
+components:
+  rock: {{type: poromechanics/mpsa, young_modulus: 2.5 Pa, poisson_ratio: 0.25, boundary: {{left: {side}, right: {side}, bottom: {side}, top: {side}}}}}
+  contact: {{type: contact/coulomb, friction: 0.6, cohesion: 4e-3 Pa, weakening: {{distance: 5 mm, friction: 0.6}}}}
+  conduit:
+    type: fracture_flow/tpfa
+    initial_aperture: 1 mm
+    law: {{type: constant, transmissivity: {1e-3 * diffusivity} m^3}}
+    viscosity: 1 Pa*s
+    fluid_compressibility: 1 1/Pa
+    initial_pressure: 0 Pa
+    injection: {{well: {{fracture: fault, at: [0 m, 0 m], rate: {rate} m^2/s}}}}
+couplers: [{{type: wall_traction, between: [rock, contact, conduit]}}]
+schedule: [{schedule}]
+time: {{end: 0.6 s, step: 0.05 s}}
+"""
+
+
 CRITICAL = 1.158 * (1 / (1 - 0.25)) / (0.2 * 0.02 / 5e-3)  # m
 
 
@@ -136,6 +166,38 @@ class Runaway(SceneRuns):
                 self.assertLess(np.hypot(float(told.group(5)), float(told.group(6))), 0.06)
                 self.assertLess(float(told.group(8)), float(told.group(7)))
 
+    def test_injection_into_a_weakening_fault_runs_away_at_the_same_length(self):
+        """That length is the same for every shape of the load: with wide and narrow peaks of the pressure."""
+        begins = []
+        for settings in ({}, {"diffusivity": 1.0}, {"angle": 30, "sign": -1}, {"factor": 1 + 1e-9},
+                         {"schedule": "{iterate: {steps: [{solve: [conduit]}, {solve: [rock, contact]}], fallback: none}}"}):
+            with self.subTest(**settings):
+                _, told, folder = self.told(injected(**settings))
+                self.assertIsNotNone(told)
+                slipping = np.array(sprekk.Results(folder)["contact.cells_slip[1]"])
+                self.assertTrue((np.diff(slipping) >= 0).all() and np.unique(slipping).size > 3)  # slip spreads before
+                self.assertEqual((told.group(1), told.group(4)), ("slip", "fault"))
+                self.assertAlmostEqual(float(told.group(3)), CRITICAL, delta=0.2)  # whole cells, at both ends
+                self.assertLess(np.hypot(float(told.group(5)), float(told.group(6))), 0.06)
+                self.assertAlmostEqual(float(told.group(7)), 0.8, delta=1e-9)
+                self.assertLess(float(told.group(8)), 0.8)
+                begins.append(float(told.group(2)))
+        # Twins run away at one time; in turn, steps end elsewhere, within which the pressure counts as linear.
+        self.assertAlmostEqual(begins[3] / begins[0], 1, delta=1e-5)
+        self.assertAlmostEqual(begins[2] / begins[0], 1, delta=0.02)
+        self.assertAlmostEqual(begins[4] / begins[0], 1, delta=0.02)
+
+    def test_a_jump_that_is_accepted_is_told(self):
+        """A block that has lost all of its weakening at once: k s = load - 6 MPa + W D, from rest."""
+        for settings in ({}, {"sign": -1}, {"upright": True}, {"factor": 1 + 1e-9}):
+            with self.subTest(**settings):
+                code, told, folder = self.told(block(0.999, **settings))
+                self.assertEqual(code, 0)
+                self.assertIsNotNone(told)
+                note, = [note for note in sprekk.Results(folder).record["notes"] if "run away" in note["topic"]]
+                jump = float(re.match(r"walls jump by ([\d.e+-]+) m to another equilibrium", note["text"]).group(1))
+                self.assertAlmostEqual(jump / ((0.07e6 + STIFFNESS / 0.999 * DISTANCE) / STIFFNESS), 1, delta=5e-3)
+
     def test_cohesion_without_weakening_is_that_of_mohr_and_coulomb(self):
         for kind in ("coulomb", "augmented_lagrangian"):
             for settings in ({}, {"sign": -1}, {"upright": True}, {"factor": 1 + 1e-9}):
@@ -152,15 +214,29 @@ class Runaway(SceneRuns):
 
     @on_two_processes
     def test_two_processes_tell_the_same(self):
-        for scene in (block(0.9), peaked()):
+        for scene in (block(0.9), block(0.999), peaked(), injected()):
             one, two = (self.told(scene, processes=n) for n in (1, 2))
             self.assertEqual(one[0], two[0])
             self.assertEqual(one[1].group(0), two[1].group(0))
 
     def test_a_run_that_cannot_go_on_ends_at_once(self):
-        begin = time.monotonic()
-        self.told(block(0.9))
-        self.assertLess(time.monotonic() - begin, 10)
+        """With all unknowns together in the step in which it happens; in turn, the step is repeated once, over most of the way up to there."""
+        flow = ("  conduit: {type: fracture_flow/tpfa, initial_aperture: 0.1 mm, initial_pressure: 0 MPa, viscosity: 1 mPa*s, fluid_compressibility: 4.5e-10 1/Pa}\n"
+                "couplers: [{type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}]\n")
+        in_turn = [("solve: [rock, contact, conduit]", 1), ("iterate: {steps: [{solve: [conduit]}, {solve: [rock, contact]}]}", 1),
+                   ("iterate: {steps: [{solve: [conduit]}, {solve: [rock, contact]}], fallback: none}", 2),
+                   ("iterate: {steps: [{solve: [rock, contact]}, {solve: [conduit]}], fallback: none}", 2),
+                   ("iterate: {steps: [{subcycle: {steps: [{solve: [conduit]}], count: 3}}, {solve: [rock, contact]}]}", 2)]
+        for schedule, attempts in in_turn:
+            with self.subTest(schedule=schedule):
+                scene = re.sub("couplers: .*\n", lambda _: flow, block(0.9)).replace("solve: [rock, contact]", schedule)
+                begin = time.monotonic()
+                code, told, folder = self.told(scene)
+                self.assertLess(time.monotonic() - begin, 10)
+                self.assertEqual(code, 1)
+                self.assertAlmostEqual(float(told.group(2)), 5.3, delta=1e-3)
+                self.assertEqual(sprekk.Results(folder).record["counters"]["steps rejected"], attempts)
+                self.assertLess(len((folder / "coupling.csv").read_text().splitlines()), 400)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,27 @@
+// Equilibria that end in a solve of an iteration, while the unknowns of its other solves are held.
+#pragma once
+
+#include <optional>
+
+#include "framework/assembly/step_time.hpp"
+#include "framework/schedule/status.hpp"
+
+namespace sprekk {
+
+/// Decides what follows when a solve in a pass finds that equilibria end at some time of the step. As other unknowns
+/// are held, this says nothing yet: over a shorter step they change less, and the end may move away. So the step is to
+/// be repeated over most of the way up to there. If the next one finds the end again, and the run has come nearer to it
+/// by more than it has moved away, it stays ahead however short the steps are: the run ends with that reason.
+class LossesInPasses {
+ public:
+  /// `at`: when equilibria end in the step, s. Sets the size with which it is to be repeated, or that it is hopeless.
+  void judge(const StepTime& step, double at, StepStatus& status);
+
+ private:
+  struct Loss {
+    double start, at;  ///< s
+  };
+  std::optional<Loss> last_;
+};
+
+}  // namespace sprekk
