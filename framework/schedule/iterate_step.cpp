@@ -340,7 +340,10 @@ StepStatus IterateStep::make_passes(const StepTime& step) {
                                  : inside_->run(step);
     if (!inner.converged) {
       StepStatus failed{false, fmt::format("pass {}: {}", pass, inner.reason), pass};
-      if (inner.lost_at) losses_.judge(step, *inner.lost_at, failed);
+      if (!inner.lost_at) return failed;
+      const std::optional<double> size = losses_.size_to_repeat(step, *inner.lost_at);
+      failed.is_hopeless = !size;
+      failed.retry_dt = size.value_or(0);
       return failed;
     }
     of_newton = std::max(of_newton, inner.effort());

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "framework/assembly/step_time.hpp"
-#include "framework/schedule/status.hpp"
 
 namespace sprekk {
 
@@ -14,8 +13,9 @@ namespace sprekk {
 /// by more than it has moved away, it stays ahead however short the steps are: the run ends with that reason.
 class LossesInPasses {
  public:
-  /// `at`: when equilibria end in the step, s. Sets the size with which it is to be repeated, or that it is hopeless.
-  void judge(const StepTime& step, double at, StepStatus& status);
+  /// `at`: when equilibria end in the step, s. The size with which it is to be repeated, s; none where that is
+  /// hopeless.
+  std::optional<double> size_to_repeat(const StepTime& step, double at);
 
  private:
   struct Loss {
