@@ -64,7 +64,7 @@ EXEMPT_ONES = (
     ("framework/schedule/path_search.cpp", "golden_ratio", "a number of mathematics"),
     ("framework/study/comparison.cpp", "plots_by_default", "how a page looks"),
     ("components/poromechanics/start_balance.cpp", "mega", "a unit in a text"),
-    ("components/contact/frictional_contact.cpp", "mega", "a unit in a text"),
+    ("components/contact/state_of_contact.cpp", "mega", "a unit in a text"),
     ("framework/study/study.cpp", "128", "the first byte that is no ASCII character"),
     ("framework/triangulation/delaunay.hpp", "outer_points", "corners of a square"),
     ("framework/triangulation/smooth_triangles.cpp", "of_equal_sides", "2 sqrt(3), of an equilateral triangle"),

@@ -1,10 +1,7 @@
-// The unknowns of the contact, and how Newton's method finds its way among the states of the cells.
+// The unknowns of the contact, their equations, and the data of these.
 #include "components/contact/frictional_contact.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -12,16 +9,12 @@
 
 #include "components/contact/cell_equations.hpp"
 #include "components/contact/fields.hpp"
-#include "components/contact/jump_on_changed_mesh.hpp"
 #include "components/contact/laws/closure.hpp"
-#include "components/contact/note_jumps.hpp"
 #include "components/contact/options.hpp"
 #include "components/contact/places_of_parameters.hpp"
 #include "components/contact/rate_and_state_walls.hpp"
-#include "components/contact/shear_load.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/mesh_change.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/scene/fracture_set.hpp"
 
@@ -88,11 +81,6 @@ void FrictionalContact::begin_step(const StepTime& step) {
   kept_.clear();
 }
 
-void FrictionalContact::set_search_mode(SearchMode mode) {
-  is_without_shortcuts_ = mode != SearchMode::with_shortcuts;
-  follows_pieces_ = is_without_shortcuts_ && mode != SearchMode::without_shortcuts;
-}
-
 std::vector<double> FrictionalContact::switch_times() const {
   std::vector<const Data*> data{&options_->friction, &options_->dilation_angle};
   if (options_->dynamic_friction) data.push_back(&*options_->dynamic_friction);
@@ -119,29 +107,6 @@ void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
   }
 }
 
-void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
-  SPREKK_EXPECT(static_cast<int>(change.fracture_cell.size()) == mesh_.fracture_cell_count(),
-                change.fracture_cell.size());
-  const auto& before = dynamic_cast<const FrictionalContact&>(part);
-  const Vector covered = covered_parts(change, mesh_);
-  // Where a new cell covers no old one, it begins closed and without slip, and the old cells are not held. With
-  // friction of rate and state, slip takes time, so cells keep their slip.
-  const bool holds_all = rate_and_state_ || (covered.size() > 0 && covered.minCoeff() > 0);
-  if (rate_and_state_) rate_and_state_->carry_over(*before.rate_and_state_);
-  bonded_.resize(change.fracture_cell.size());
-  for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = holds_all || change.fracture_cell[i] == none;
-  Vector jump = jump_on_changed_mesh(change, {mesh_, jump_.accepted()}, {before.mesh_, before.jump_.accepted()});
-  bonded_jump_ = jump;
-  jump_.set_both(std::move(jump));
-  if (change.is_at_rest) carried_traction_ = traction_.accepted();
-}
-
-void FrictionalContact::settled(const MeshChange& change) {
-  if (change.is_at_rest) traction_.set_both(std::exchange(carried_traction_, {}));
-  bonded_.clear();
-  bonded_jump_.resize(0);
-}
-
 void FrictionalContact::after_solve(const std::vector<Field*>& solved, const StepTime&) {
   if (std::find(solved.begin(), solved.end(), &traction_) == solved.end()) return;
   if (rate_and_state_ && bonded_.empty()) {
@@ -159,117 +124,6 @@ void FrictionalContact::after_solve(const std::vector<Field*>& solved, const Ste
   for (int i = 0; i < paths.size(); ++i)
     if (is_on_fracture_cell(i)) paths[i] = path(i, gap(i, traction_.now(), jump_.now()));
   path_->set(std::move(paths));
-}
-
-void FrictionalContact::observe_iterate(const std::vector<Field*>& unknowns) {
-  is_solved_for_ = std::find(unknowns.begin(), unknowns.end(), &traction_) != unknowns.end();
-  if (follows_pieces_ || !is_solved_for_) return;
-  const std::array<std::uint64_t, 2> values{traction_.version(), jump_.version()};
-  if (!back_slip_.empty() && values == followed_) return;  // this update has been considered already
-  followed_ = values;
-  back_slip_.resize(mesh_.fracture_cell_count());
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    if (!is_on_fracture_cell(i)) continue;
-    BackSlip& cell = back_slip_[i];
-    const Trial t = trial(i);
-    SPREKK_ASSERT(is_index(i, static_cast<long>(back_slip_.size())), i, back_slip_.size());
-    TangentialVector direction = TangentialVector::Zero();
-    if (t.state() == State::slip) direction = direction_of<dimension - 1>(t.tangential);
-    const bool slides_back = dilation_[i] > 0 && t.slides_back();
-    if (cell.taken == BackSlip::Piece::before_kink && direction.dot(cell.direction) <= 0) {
-      const TangentialVector slip = tangential(jump_.now(), i) - tangential(jump_.accepted(), i);
-      cell.is_beyond = cell.is_beyond || slip.dot(cell.direction) < 0;
-    } else if (cell.taken == BackSlip::Piece::beyond_kink && slides_back) {
-      cell.is_beyond = false;  // the kink was not reached, or no solution lies beyond it
-    }
-    cell.taken = !slides_back     ? BackSlip::Piece::none
-                 : cell.is_beyond ? BackSlip::Piece::beyond_kink
-                                  : BackSlip::Piece::before_kink;
-    cell.direction = direction;
-  }
-}
-
-State FrictionalContact::state(int i) const {
-  const State state = trial(i).state();
-  return rate_and_state_ && state == State::stick && rate_and_state_->slips(i) ? State::slip : state;
-}
-
-namespace {
-
-/// Whether slip has the positive one of the two directions in a plane. In space the direction changes without a kink,
-/// and all directions are one piece.
-bool is_forward(const TangentialVector& vector) { return dimension == 2 && vector[0] > 0; }
-
-}  // namespace
-
-int FrictionalContact::piece(int i) const {
-  if (!is_on_fracture_cell(i)) return 0;
-  const Trial t = trial(i);
-  const State now = t.state();
-  const bool knows_direction = now == State::slip && (friction_[i] > 0 || weakening_.cohesion > 0);
-  const int piece = 2 * static_cast<int>(now) + (knows_direction && is_forward(t.tangential));
-  if (!follows_pieces_) return piece;
-  if (is_bonded(i)) return 0;
-  const bool has_kink = dilation_[i] > 0 && now != State::open;
-  const bool is_worn = has_kink && t.dilation == 0;
-  const int kink = 3 * piece + (is_worn ? 2 : has_kink && is_forward(t.slip_direction));
-  if (!path_ || now == State::stick) return kink;
-  // What is left of the strength depends on the size of the slip in the step, and ends where all is lost.
-  const bool is_spent = path(i, gap(i, traction_.now(), jump_.now())) >= weakening_.distance;
-  return 3 * kink + (is_spent ? 2 : is_forward(t.path_by_slip));
-}
-
-/// Opens all cells by a very small amount. The amount makes no difference, since the conditions of open cells are
-/// linear.
-void FrictionalContact::deactivate_conditions() {
-  constexpr double opening = 1e-9;  // of the length of a cell
-  Vector traction = traction_.now(), jump = jump_.now();
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    if (is_bonded(i) || !is_on_fracture_cell(i)) continue;
-    traction.segment<dimension>(dimension * i).setZero();
-    const double least = dilated(i, magnitude<dimension - 1>(tangential(jump, i))) - closure(0);
-    jump[dimension * i] = std::max(jump[dimension * i], least + opening * mesh_.fracture_cells[i].measure);
-  }
-  traction_.set(std::move(traction));
-  jump_.set(std::move(jump));
-}
-
-int FrictionalContact::keep_states() {
-  constexpr double least = 1e-6;  // of the largest jump; smaller jumps are round-off
-  if (!is_solved_for_ || rate_and_state_) return 0;
-  kept_.assign(mesh_.fracture_cell_count(), 0);
-  int count = 0;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    if (!is_on_fracture_cell(i)) continue;
-    const TangentialVector before = tangential(jump_.accepted(), i), slip = tangential(jump_.now(), i) - before;
-    const bool slides_back = dilation_[i] > 0 && friction_[i] > 0 && slip.dot(before) < 0;
-    if (is_bonded(i) || !slides_back || magnitude<dimension - 1>(slip) < least * jump_.now().lpNorm<Eigen::Infinity>())
-      continue;
-    if (state(i) == State::open || traction_.accepted()[dimension * i] >= 0) continue;
-    kept_[i] = 1;
-    ++count;
-  }
-  if (count == 0) kept_.clear();
-  return count;
-}
-
-int FrictionalContact::release_violated() {
-  int count = 0;
-  const std::vector<char> kept = std::exchange(kept_, {});
-  std::vector<char> rest = kept;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (!kept[i] || state(static_cast<int>(i)) == State::stick) continue;
-    rest[i] = 0;
-    ++count;
-  }
-  kept_ = std::move(rest);
-  return count;
-}
-
-std::uint64_t FrictionalContact::discrete_state() const {
-  std::uint64_t hash = 0;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) hash = hash * 1000003 + piece(i);
-  return hash;
 }
 
 void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
@@ -306,38 +160,6 @@ void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
   assembly.derivative(traction_, jump_, block_diagonal(by_jump, Pattern::full));
 }
 
-void FrictionalContact::report(std::vector<Quantity>& quantities) const {
-  int counts[3] = {0, 0, 0};
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-    if (is_on_fracture_cell(i)) ++counts[static_cast<int>(state(i))];
-  quantities.push_back({name() + ".cells_stick", "1", static_cast<double>(counts[0])});
-  quantities.push_back({name() + ".cells_slip", "1", static_cast<double>(counts[1])});
-  quantities.push_back({name() + ".cells_open", "1", static_cast<double>(counts[2])});
-  if (rate_and_state_) rate_and_state_->report(name(), slips(), quantities);
-}
-
-void FrictionalContact::output(std::vector<OutputField>& fields) const {
-  Vector states(mesh_.fracture_cell_count());
-  const bool is_at_start = traction_.now().isZero(0) && jump_.now().isZero(0);  // walls touch, and carry nothing yet
-  for (int i = 0; i < states.size(); ++i) states[i] = is_at_start ? 0.0 : static_cast<double>(state(i));
-  fields.push_back({.name = name() + ".state_0_stick_1_slip_2_open",
-                    .unit = "1",
-                    .location = Location::fracture_cell,
-                    .values = std::move(states),
-                    .is_a_choice = true});
-  Vector tendency(mesh_.fracture_cell_count()), used(mesh_.fracture_cell_count());
-  for (int i = 0; i < tendency.size(); ++i) {
-    const Trial t = trial(i);
-    const bool has_parted = !is_at_start && t.state() == State::open;  // tractions are round-off then
-    const ShearLoad load = shear_load(traction_.now().segment<dimension>(dimension * i), t.strength, has_parted);
-    tendency[i] = load.slip_tendency;
-    used[i] = load.friction_used;
-  }
-  fields.push_back({name() + ".slip_tendency", "1", Location::fracture_cell, 1, std::move(tendency)});
-  fields.push_back({name() + ".friction_used", "1", Location::fracture_cell, 1, std::move(used)});
-  if (rate_and_state_) rate_and_state_->output(fields);
-}
-
 void FrictionalContact::require_countable() const {
   if (rate_and_state_)
     throw InputError(origin_, "the walls of '" + name() + "' have no state at rest",
@@ -351,64 +173,11 @@ void FrictionalContact::count_from_here(const SettledFields& settled) {
     slip_at_start_ = std::max(slip_at_start_, tangential(jump_.now(), i).norm());
 }
 
-void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
-  std::vector<char> is_open(mesh_.fracture_cell_count()), slides = is_open;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    is_open[i] = is_on_fracture_cell(i) && state(i) == State::open;
-    slides[i] = is_on_fracture_cell(i) && state(i) == State::slip;
-  }
-  std::vector<double> springs;
-  if (multiplier_ == Multiplier::none)
-    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-      springs.push_back(is_on_fracture_cell(i) ? compliance(i)[1] : 0);
-  note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, slides, options_->large_jump, slip_at_start_, springs});
-  if (rate_and_state_) rate_and_state_->note_step(name(), traction_.now(), slips(), notes);
-}
-
 std::string FrictionalContact::loss_of_one_stage() const {
   if (!rate_and_state_) return "";
   return "recurrence times and peak slip rates of '" + name() +
          "' are of first order in 'state_change' (0.6 % and 8 % too small in the cycle of a spring-slider at 0.1, "
          "against 5e-6 and 3e-4)";
-}
-
-void FrictionalContact::note_start(Notes& notes) const {
-  int cells = 0, worst = none;
-  double most = 0;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    constexpr double small = 1e-2;  // of the traction
-    const double beyond = is_on_fracture_cell(i) ? excess(i) : 0;
-    if (beyond <= small * traction_.now().segment<dimension>(dimension * i).norm()) continue;
-    ++cells;
-    if (beyond > most) {
-      most = beyond;
-      worst = i;
-    }
-  }
-  if (cells == 0) return;
-  constexpr double mega = 1e6;
-  const Point traction = traction_.now().segment<dimension>(dimension * worst);
-  const bool parts = traction[0] > 0;
-  notes.add(name() + " out of balance at the start",
-            fmt::format("{} cells of '{}' {} under the initial stress: at {} their traction is {:.3g} MPa across and "
-                        "{:.3g} MPa along them, by {:.3g} MPa more than they hold (they move at once, in the first "
-                        "step) let 'start: settle' find the equilibrium, or change the initial stress, the pressure or "
-                        "the friction",
-                        cells, name(), parts ? "part" : "slide", to_text(mesh_.fracture_cells[worst].center),
-                        traction[0] / mega, traction.tail<dimension - 1>().norm() / mega, most / mega),
-            most);
-}
-
-double FrictionalContact::excess(int i) const {
-  const Strength strength = trial(i).strength;
-  const Point traction = traction_.now().segment<dimension>(dimension * i);
-  if (traction[0] > strength.tension) return traction[0] - strength.tension;
-  if (rate_and_state_) return 0;  // such walls slide under any shear
-  return traction.tail<dimension - 1>().norm() - strength.cohesion - strength.friction * std::max(0.0, -traction[0]);
-}
-
-void FrictionalContact::note_input(Notes& notes) const {
-  if (rate_and_state_) rate_and_state_->note_input(name(), notes);
 }
 
 Vector FrictionalContact::slips() const {

@@ -64,11 +64,12 @@ void check_scene(const Scene& scene) {
   progress.phase("building the model");
   Model model(scene);
   if (scene.start.from) take_state_of_run(*scene.start.from, model);
-  progress.close();
   StopCondition(scene, model.quantities());
   long unknowns = 0;
   for (const Field* field : model.schedule().unknowns()) unknowns += field->size();
   const Notes notes = start_notes(model, mesh_quality(model.mesh()), unknowns);
+  model.require_held();
+  progress.close();
   if (!parallel::is_root()) return;
   for (const NoteRecord& note : records_of(notes)) std::cerr << "note: " << described(note) << "\n";
   std::cout << scene.name << ": ok, " << model.mesh().cell_count() << " cells, " << model.mesh().fracture_cell_count()

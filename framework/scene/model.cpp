@@ -270,6 +270,16 @@ void Model::prepare(const StepTime& step) {
   }
 }
 
+void Model::require_held() {
+  const TimeOptions& time = scene_.time;
+  const double length = std::min(time.step, time.end - time.start);
+  const StepTime first{time.start, length, time.start + length};
+  refusing_bad_data([&] { prepare(first); });
+  now_doing("looking for what nothing holds");
+  // The state from which the first step starts is not known before it has settled.
+  (settle_ ? *settle_ : *schedule_).require_held(first);
+}
+
 namespace {
 
 /// What the equations of all unknowns say of a quantity at the end of a step. Collective.

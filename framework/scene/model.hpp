@@ -39,6 +39,9 @@ class Model {
 
   /// Evaluates the data of a step and updates all discretizations, as `attempt` does first. Throws DataError.
   void prepare(const StepTime& step);
+  /// Begins the first step, and throws InputError where the run would refuse its equations, because nothing holds some
+  /// of their balances. Only for a model that does not run: the step is not ended. Collective.
+  void require_held();
   /// Attempts one step from the accepted state: prepares it and runs the schedule. If the step converges, the
   /// current values are those at its end. The caller accepts or rewinds.
   StepStatus attempt(const StepTime& step);

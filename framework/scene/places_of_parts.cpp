@@ -8,12 +8,12 @@
 namespace sprekk {
 
 bool PlacesOfParts::is_on_fractures(const Component& component) const {
-  constexpr Location in_rock[] = {Location::cell, Location::face, Location::node};
+  constexpr Location between_fractures[] = {Location::cell, Location::face, Location::node};
   bool has_fields = false;
   for (const auto& field : fields_.all()) {
     if (field->spec().owner != component.name()) continue;
     has_fields = true;
-    if (std::ranges::count(in_rock, field->spec().location) > 0) return false;
+    if (std::ranges::count(between_fractures, field->spec().location) > 0) return false;
   }
   return has_fields;
 }

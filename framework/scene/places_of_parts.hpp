@@ -13,7 +13,7 @@
 namespace sprekk {
 
 /// Finds the cells in which a component has its values: those of the fractures where all of its fields are on
-/// fractures, else those of the rock, as far as it lives there (LivesInPart).
+/// fractures, else those between them, as far as it lives there (LivesInPart).
 class PlacesOfParts {
  public:
   /// All of these have to stay as they are as long as this object is used.

@@ -56,6 +56,11 @@ class ScheduleStep {
   virtual void check() const {
     for (const ScheduleStep* child : children()) child->check();
   }
+  /// Throws InputError where nothing holds some balances in a system that the first time step solves: it would be
+  /// refused there. Called when all parts have begun this step. Collective.
+  virtual void require_held(const StepTime& step) const {
+    for (const ScheduleStep* child : children()) child->require_held(step);
+  }
   /// Tells the unknowns of an iteration around the step: those that it does not solve for itself wait meanwhile.
   virtual void iterate_with(const std::vector<const Field*>& /*unknowns*/) {}
   /// Adds notes on a step that is about to be accepted: how it was solved, where that is not what the scene says.

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "framework/assembly/assemble_all.hpp"
+#include "framework/assembly/block_system.hpp"
 #include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/needs_direct_solver.hpp"
 #include "framework/assembly/stabilizes_preconditioner.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/schedule/residual_check.hpp"
 
 namespace sprekk {
 
@@ -292,6 +295,17 @@ bool SolveStep::is_good_enough(const StepTime& step) {
   inexact_ = goes_on ? inexact_ + 1 : 1;
   inexact_in_ = step;
   return options_.overrides_newton || inexact_ <= most_in_a_row;
+}
+
+void SolveStep::require_held(const StepTime& step) const {
+  // A stabilization may hold what nothing else does; whether it does is known in the step.
+  if (fields_.empty() || options_.stabilization != "none") return;
+  Assembly assembly(unknowns(), Assembly::Request::residual_and_derivatives);
+  assemble_all(assembly, parts_, step);
+  const BlockSystem system(mesh_, unknowns());
+  if (check_residual(assembly, system, options_.newton.residual).converged) return;  // nothing is to be found
+  const std::string floating = system.describe_floating(assembly);
+  if (!floating.empty()) throw InputError(options_.origin, floating);
 }
 
 StepStatus SolveStep::run(const StepTime& step) {

@@ -39,6 +39,7 @@ class SolveStep : public ScheduleStep {
   /// Throws InputError for a stabilization that has no effect.
   bool is_stabilized() const override { return options_.stabilization != "none"; }
   void check() const override;
+  void require_held(const StepTime& step) const override;
   double largest_imbalance() const override { return looser_for_balances * options_.newton.residual; }
   void note_step(Notes& notes, const StepTime& step) const override { newton_->note_step(notes, step); }
   std::string describe() const override;

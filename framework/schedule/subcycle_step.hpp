@@ -44,6 +44,8 @@ class SubcycleStep : public ScheduleStep {
   void iterate_with(const std::vector<const Field*>& unknowns) override { inside_->iterate_with(unknowns); }
   double largest_imbalance() const override { return inside_->largest_imbalance(); }
   double summed_errors() const override;
+  void check() const override { inside_->check(); }
+  void require_held(const StepTime& step) const override { inside_->require_held(step); }
   std::string describe() const override;
   std::vector<const ScheduleStep*> children() const override;
   void note_step(Notes& notes, const StepTime& step) const override { inside_->note_step(notes, step); }

@@ -28,6 +28,9 @@ class WhenStep : public ScheduleStep {
   std::vector<const Field*> solved_first(const StepTime& step) const override {
     return holds(step) ? inside_->solved_first(step) : std::vector<const Field*>();
   }
+  void require_held(const StepTime& step) const override {
+    if (holds(step)) inside_->require_held(step);
+  }
   std::string describe() const override { return "when"; }
   std::vector<const ScheduleStep*> children() const override { return {inside_.get()}; }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }
