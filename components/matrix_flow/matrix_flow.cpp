@@ -140,6 +140,12 @@ void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
   }
 }
 
+bool MatrixFlow::stores_nothing_somewhere() const {
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    if (is_in_cell(c) && storage_[c] == 0) return true;
+  return false;
+}
+
 void MatrixFlow::hold_constants(ConstantModes& modes) const {
   const bool has_pressure = std::any_of(options_.boundary.begin(), options_.boundary.end(),
                                         [](const auto& side) { return side.second.pressure.has_value(); });

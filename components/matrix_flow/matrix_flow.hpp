@@ -17,6 +17,7 @@
 #include "components/matrix_flow/rediscretize.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
+#include "framework/assembly/may_store_nothing.hpp"
 #include "framework/assembly/nonlinear_in_pieces.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
@@ -80,6 +81,7 @@ class MatrixFlow : public Component,
                    public BuoyantMatrix,
                    public KeepsTotals,
                    public LivesInPart,
+                   public MayStoreNothing,
                    public NonlinearInPieces {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
@@ -110,6 +112,7 @@ class MatrixFlow : public Component,
   void release_coefficients(double share) override;
   bool is_nonlinear_in_pieces() const override { return is_limited_ && !is_sealed_; }
   std::vector<double> switch_times() const override;
+  bool stores_nothing_somewhere() const override;
   void hold_constants(ConstantModes& modes) const override;
   /// The rates of wells, and the outflow through each side with a condition, at the end of the step.
   void report(std::vector<Quantity>& quantities) const override;

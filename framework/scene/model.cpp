@@ -12,6 +12,7 @@
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
+#include "framework/assembly/may_store_nothing.hpp"
 #include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
@@ -271,6 +272,11 @@ void Model::prepare(const StepTime& step) {
 }
 
 void Model::require_held() {
+  const bool may_float = std::ranges::any_of(parts_, [](const Part* part) {
+    const auto* storing = dynamic_cast<const MayStoreNothing*>(part);
+    return storing && storing->stores_nothing_somewhere();
+  });
+  if (!may_float) return;
   const TimeOptions& time = scene_.time;
   const double length = std::min(time.step, time.end - time.start);
   const StepTime first{time.start, length, time.start + length};

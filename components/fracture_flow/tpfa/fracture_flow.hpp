@@ -19,6 +19,7 @@
 #include "framework/assembly/follows_stages.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
+#include "framework/assembly/may_store_nothing.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
 
@@ -42,7 +43,8 @@ class FractureFlow : public Component,
                      public BuoyantFractures,
                      public FollowsStages,
                      public KeepsTotals,
-                     public LivesInPart {
+                     public LivesInPart,
+                     public MayStoreNothing {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
@@ -67,6 +69,7 @@ class FractureFlow : public Component,
   void balance(std::map<std::string, Balance>& balances) const override;
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
+  bool stores_nothing_somewhere() const override { return compressibility_.values().minCoeff() == 0; }
   void hold_constants(ConstantModes& modes) const override;
   void report(std::vector<Quantity>& quantities) const override;
   std::uint64_t discrete_state() const override;
