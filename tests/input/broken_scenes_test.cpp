@@ -1,8 +1,7 @@
 // Every scene in broken/ has a mistake. Its comments say what the answer contains, and which scene of base/ it changes:
 //   # expect: typo_key.yaml:5:10: unknown key 'permeabilty'
-//   # because: a misspelt parameter
+//   # because: a misspelt parameter (grade: A)
 //   # over: flow.yaml
-//   # grade: A
 // The grade is that of a reader who had not seen the code: A says what is wrong, where, why and what to do; B lacks one
 // of them, or is clumsy; C lacks two, or misleads; '-': the message has changed since.
 #include <gmock/gmock.h>
