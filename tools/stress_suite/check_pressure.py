@@ -12,7 +12,8 @@ Bounds: a pressure lies between those that were given, widened by what loads and
 - Walls that overlap (contact/penalty) press on the fluid as a fracture that closes, and let go of it.
 - Heat: what expands counts as a load, 3 K alpha_T times the range of temperatures.
 - Gravity: the weight of the heaviest fluid between two corners of the box.
-- Wells with limits: these, where their rates drive pressures to them, and given ones.
+- Wells with limits: these, where their rates drive pressures to them, and given ones; in rock for the mean of the cells that share
+  a well, at its place.
 - A fracture that has opened, and closes: at most the stress that closes it.
 - Opening by slip, and extraction, lower the pressure without a bound of their own where the rock gives no fluid.
 Alternating: a cell is a peak (a trough) when its pressure is above (below) that of all its neighbours by more than 2 %
@@ -29,7 +30,7 @@ import math
 
 import numpy as np
 
-from . import buoyancy, heat, limited_wells, physics, swaps
+from . import buoyancy, check_wells, heat, limited_wells, physics, swaps
 
 MISSED = 0.05  # of the differences
 PEAK = 0.02
@@ -190,7 +191,7 @@ def failures(p, instants, history=None):
         # between their fluid and the rock, too.
         in_rock = pressure.max() - pressure.min()
         may_fall = p["well"] in ("extract", "inject_extract") or has_opened or limited_wells.are_without_limit(p, "extract")
-        for values, around in zip((pressure, fracture), differences_around(instant, pressure, fracture)):
+        for values, around in zip((check_wells.at_places(p, instant), fracture), differences_around(instant, pressure, fracture)):
             slack = 1e-8 * size + MISSED * np.maximum(around, in_rock)
             for side, over in ((f"above {high:.6g}", values - high - slack), (f"below {low:.6g}", low - slack - values)):
                 worst = int(np.argmax(over))

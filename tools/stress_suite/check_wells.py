@@ -67,6 +67,18 @@ def cell_around(p, well, instant):
     return int(np.argmin(distances)), True
 
 
+def at_places(p, instant):
+    """Pressures in rock as wells see them: cells that share one have their mean at its place. A well has no pressure of single cells
+    there, which may lie beyond its own by what they differ."""
+    pressures = instant.cell("pore.pressure[Pa]").copy()
+    for well in p.get("wells", {}).values():
+        if not well["in_fracture"]:
+            shares = well_shares.Rock(instant.matrix).shares(cell_around(p, well, instant)[0], np.array(limited_wells.place(p, well)))
+            cells = list(shares)
+            pressures[cells] = pressures[cells] @ np.array(list(shares.values()))
+    return pressures
+
+
 def aperture_before(p, instants, at):
     """Of fracture cells at the start of the step that ends at an instant, or None where this is not written."""
     if at == 0:

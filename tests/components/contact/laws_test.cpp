@@ -73,7 +73,7 @@ Options mohr_coulomb() {
 TEST(Laws, HaveTheDerivativesOfTheirConditions) {
   const Mesh mesh = crossing();
   for (const Options& options : {all_laws(), mohr_coulomb()})
-    for (const Multiplier multiplier : {Multiplier::present, Multiplier::last, Multiplier::none}) {
+    for (const Multiplier multiplier : {Multiplier::present, Multiplier::none}) {
       Contact contact(mesh, {}, options, multiplier);
       const int cells = mesh.fracture_cell_count();
       contact.law().set_wall_stiffness(Vector::LinSpaced(2 * cells, 1, 2));
@@ -88,6 +88,31 @@ TEST(Laws, HaveTheDerivativesOfTheirConditions) {
       if (multiplier == Multiplier::none) continue;  // whose states depend on jumps only
       for (const int count : counts) EXPECT_GT(count, 10);
     }
+}
+
+/// Springs in series with the walls: what a traction moves by them is taken off the jump, d/df = (d/df) − (d/du)/c.
+TEST(Laws, OfAnIterateHaveTheDerivativesOfSpringsAndTheirResidualWithoutThem) {
+  const Mesh mesh = crossing();
+  const int cells = mesh.fracture_cell_count(), n = 2 * cells;
+  const Vector stiffness = Vector::LinSpaced(n, 1, 2);
+  for (const auto& [law, options] : {std::pair(Law(), all_laws()), std::pair(Law{0.6, 0}, mohr_coulomb())}) {
+    Contact springs(mesh, law, options, Multiplier::last), walls(mesh, law, options);
+    springs.law().set_wall_stiffness(stiffness);
+    walls.law().set_wall_stiffness(stiffness);
+    std::mt19937 random(5), again(5);
+    for (int number = 0; number < 20; ++number) {
+      SCOPED_TRACE(number);
+      const Sample sample(springs, cells, random), same(walls, cells, again);
+      ASSERT_EQ(sample.traction, same.traction);
+      EXPECT_EQ(springs.residual(), walls.residual());
+      const Eigen::MatrixXd with = springs.jacobian(), without = walls.jacobian();
+      EXPECT_LT((with - without).rightCols(n).lpNorm<Eigen::Infinity>(), 1e-12);
+      EXPECT_GT((with - without).leftCols(n).lpNorm<Eigen::Infinity>(), 0.1);
+      if (law.dilation_angle > 0) continue;  // where walls open by their slip, without that of the springs
+      const Eigen::MatrixXd in_series = -without.rightCols(n) * stiffness.cwiseInverse().asDiagonal();
+      EXPECT_LT(((with - without).leftCols(n) - in_series).lpNorm<Eigen::Infinity>(), 1e-12);
+    }
+  }
 }
 
 }  // namespace

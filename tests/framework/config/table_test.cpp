@@ -94,7 +94,7 @@ TEST_F(ReadTable, RefusesWhatIsNoUnitInAHeading) {
   EXPECT_EQ(
       error(),
       "p.csv:1: 'Mpa' in the heading 'p (Mpa)' is no unit (what stands in brackets or behind '/' is taken for the "
-      "unit of the column) write 'p[Pa]', or a name without it");
+      "unit of the column) write 'p[MPa]', or a name without it");
   write("t,p (left),p (right)\n0,1,2\n2,3,4\n");  // two names, of which none is needed here
   EXPECT_THAT(error("column: p (right)"), HasSubstr("'right' in the heading 'p (right)' is no unit"));
 }

@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"40 GPa", "m^2",
               "s.yaml:3:4: '40 GPa' for 'k' has the dimension of pressure (needed is area, in m^2) give it in a unit "
               "like m^2"},
-        Wrong{"30 deg", "", "has the dimension of angle (needed is a plain number) write the number without a unit"},
+        Wrong{"30 deg", "", "has the dimension of angle (needed is a plain number) write its tangent: 'tan(30 deg)'"},
         Wrong{"0.5 %", "Pa", "has the dimension of plain number"},
         Wrong{"1 MPa*m", "Pa*m^0.5", "has the dimension of force per length (needed is stress intensity, in Pa*m^0.5)"},
         Wrong{"1 m^3*K", "m", "has the dimension of m^3*K"}, Wrong{"1 m^0.5", "m^0.4999", "has the dimension of"},
