@@ -53,10 +53,10 @@ void require_plain_number(const std::string& text, const Origin& where, const st
              "type \"");
   constexpr std::size_t longest = 200;  // characters: std::regex needs a part of the stack for each
   if (content.size() > longest) return;
-  for (const Misspelling& slip : misspellings())
-    if (std::regex_search(content, slip.pattern))
-      refuse(std::string("has ") + slip.has, slip.why,
-             "write " + quoted(std::regex_replace(content, slip.pattern, slip.replacement)));
+  for (const Misspelling& one : misspellings())
+    if (std::regex_search(content, one.pattern))
+      refuse(std::string("has ") + one.has, one.why,
+             "write " + quoted(std::regex_replace(content, one.pattern, one.replacement)));
 }
 
 }  // namespace sprekk

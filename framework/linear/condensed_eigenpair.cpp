@@ -43,8 +43,8 @@ class Arnoldi {
                   unknowns.rows.size(), unknowns.columns.size(), n_);
     for (Eigen::Index i = 0; i < n_; ++i)
       SPREKK_EXPECT(is_index(unknowns.rows[i], size) && is_index(unknowns.columns[i], size), unknowns.rows[i], size);
-    constexpr Eigen::Index most = 40;  // vectors
-    const Eigen::Index vectors = std::min(n_, most);
+    constexpr int most = 40;  // vectors
+    const Eigen::Index vectors = std::min<Eigen::Index>(n_, most);
     basis_.resize(n_, vectors);
     hessenberg_ = Eigen::MatrixXd::Zero(vectors, vectors);
     if (n_ > 0) basis_.col(0) = first_vector(n_);
@@ -109,8 +109,8 @@ std::optional<CondensedEigenpair> negative_eigenpair(LinearSolver& solver, const
 
 double smallest_if_positive(LinearSolver& solver, const std::vector<int>& rows, int size,
                             const CondensedUnknowns& unknowns) {
-  constexpr int least = 16;        // vectors: with them a loss shows beside motions that are a hundred times as soft
-  constexpr double certain = 0.1;  // of the eigenvalue: its residual
+  constexpr int least = 16;      // vectors: with them a loss shows beside motions that are a hundred times as soft
+  constexpr double known = 0.1;  // of the eigenvalue: its residual
   Arnoldi arnoldi(solver, rows, size, unknowns);
   for (int used = 1; !arnoldi.is_at_end(); ++used) {
     if (!arnoldi.extend()) return 0;
@@ -118,7 +118,7 @@ double smallest_if_positive(LinearSolver& solver, const std::vector<int>& rows, 
     const std::vector<RealEigenpair> pairs = arnoldi.pairs();
     if (std::ranges::any_of(pairs, [](const RealEigenpair& pair) { return pair.value <= 0; })) return 0;
     const auto largest = std::ranges::max_element(pairs, {}, &RealEigenpair::value);
-    if (largest != pairs.end() && arnoldi.residual(*largest) <= certain * largest->value)
+    if (largest != pairs.end() && arnoldi.residual(*largest) <= known * largest->value)
       return 1 / (largest->value + arnoldi.residual(*largest));
   }
   return 0;
