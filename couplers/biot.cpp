@@ -21,7 +21,7 @@
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
 

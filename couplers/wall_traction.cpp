@@ -15,7 +15,7 @@
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/network_shape.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -143,8 +143,8 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
   void note_step(Notes& notes, const StepTime&) const override {
     if (!fluid_) return;
     Vector pressure = fluid_->pressure().now();
-    for (const FracturePoint& point : mesh_.fracture_points)
-      if (point.kind == FracturePoint::Kind::tip && fluid_->viscosity_between_walls(point.cells[0]) > 0)
+    for (const Ridge& point : mesh_.ridges)
+      if (point.kind == Ridge::Kind::tip && fluid_->viscosity_between_walls(point.cells[0]) > 0)
         pressure[point.cells[0]] = std::max(pressure[point.cells[0]], 0.0);
     Eigen::Index lowest = 0;
     const double suction = -pressure.minCoeff(&lowest);

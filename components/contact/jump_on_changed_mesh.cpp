@@ -18,8 +18,8 @@ double part_at_tip(double from, double to) {
 }
 
 bool is_at_tip(const Mesh& mesh, int cell) {
-  return std::ranges::any_of(mesh.fracture_cells[cell].points,
-                             [&](int point) { return mesh.fracture_points[point].kind == FracturePoint::Kind::tip; });
+  return std::ranges::any_of(mesh.fracture_cells[cell].ridges,
+                             [&](int point) { return mesh.ridges[point].kind == Ridge::Kind::tip; });
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/ridge_distance.hpp"
 
 namespace sprekk::fracture_heat {
 namespace {
@@ -95,11 +96,10 @@ FractureHeat::FractureHeat(const ComponentContext& context, const Options& optio
   temperature_.set_both(initial_temperature_);
   const Vector aperture = values(options_.aperture), conductivity = values(options_.conductivity);
   capacity_ = values(options_.heat_capacity).cwiseProduct(aperture);
-  half_conductance_ = 2 * conductivity.cwiseProduct(aperture);
+  conductance_along_ = conductivity.cwiseProduct(aperture);
   wall_conductance_.resize(mesh_.wall_count());
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     capacity_[i] *= mesh_.fracture_cells[i].measure;
-    half_conductance_[i] /= mesh_.fracture_cells[i].measure;
     wall_conductance_[2 * i] = wall_conductance_[2 * i + 1] = 2 * conductivity[i] / aperture[i];
   }
   capacity_of_temperature_ = Operator(diagonal_matrix(capacity_));
@@ -115,8 +115,8 @@ void FractureHeat::note_input(Notes& notes) const {
 }
 
 const Data* FractureHeat::end_condition(int point) const {
-  const FracturePoint& at = mesh_.fracture_points[point];
-  if (at.kind != FracturePoint::Kind::on_boundary) return nullptr;
+  const Ridge& at = mesh_.ridges[point];
+  if (at.kind != Ridge::Kind::on_boundary) return nullptr;
   const auto found = options_.boundary.find(mesh_.side_names[at.side]);
   return found == options_.boundary.end() ? nullptr : &found->second;
 }
@@ -126,22 +126,35 @@ std::optional<double> FractureHeat::end_temperature(int point) const {
   return end_temperature_[point];
 }
 
+/// Of half a cell, up to one of its ridges, over the length of that; m in a plane.
+double FractureHeat::half_length(int cell, int ridge) const {
+  return distance_to_ridge(mesh_, cell, ridge) / mesh_.ridges[ridge].measure;
+}
+
+double FractureHeat::half_conductance(int cell, int ridge) const {
+  return conductance_along_[cell] / half_length(cell, ridge);
+}
+
 void FractureHeat::connect(const Vector& resistivity, const Vector& aperture) {
-  const int points = static_cast<int>(mesh_.fracture_points.size()), cells = mesh_.fracture_cell_count();
+  const int points = static_cast<int>(mesh_.ridges.size()), cells = mesh_.fracture_cell_count();
   conductance_to_end_ = Vector::Zero(points);
+  largest_conductance_ = 0;
+  for (int cell = 0; cell < cells; ++cell)
+    for (const int ridge : mesh_.fracture_cells[cell].ridges)
+      largest_conductance_ = std::max(largest_conductance_, half_conductance(cell, ridge));
   std::vector<Triplet> entries, ends;
   const auto join = [&](int first, int second, double conductance) {
     entries.insert(entries.end(), {{first, first, conductance}, {first, second, -conductance}});
     entries.insert(entries.end(), {{second, second, conductance}, {second, first, -conductance}});
   };
   for (int p = 0; p < points; ++p) {
-    const FracturePoint& point = mesh_.fracture_points[p];
-    if (point.kind == FracturePoint::Kind::junction) continue;
+    const Ridge& point = mesh_.ridges[p];
+    if (point.kind == Ridge::Kind::junction) continue;
     if (point.cells.size() == 2) {
-      const double first = half_conductance_[point.cells[0]], second = half_conductance_[point.cells[1]];
+      const double first = half_conductance(point.cells[0], p), second = half_conductance(point.cells[1], p);
       join(point.cells[0], point.cells[1], first * second / (first + second));
     } else if (end_condition(p)) {
-      conductance_to_end_[p] = half_conductance_[point.cells[0]];
+      conductance_to_end_[p] = half_conductance(point.cells[0], p);
       entries.emplace_back(point.cells[0], point.cells[0], conductance_to_end_[p]);
       ends.emplace_back(point.cells[0], point.cells[0], conductance_to_end_[p]);
     }
@@ -150,17 +163,17 @@ void FractureHeat::connect(const Vector& resistivity, const Vector& aperture) {
   const std::vector<CrossingFill> fills = options_.crossings.fills(mesh_);
   for (std::size_t k = 0; k < mesh_.junctions.size(); ++k) {
     const std::vector<int>& at = mesh_.junctions[k].cells;
+    const int ridge = mesh_.junctions[k].ridges.front();
     std::vector<CrossingArm> arms;
     for (const int cell : at) {
-      const FractureCell& of_arm = mesh_.fracture_cells[cell];
-      arms.push_back({of_arm.fracture, 0.5 * of_arm.measure, aperture[cell], resistivity[cell],
+      arms.push_back({mesh_.fracture_cells[cell].fracture, half_length(cell, ridge), aperture[cell], resistivity[cell],
                       0.5 * aperture[cell] * resistivity[cell]});
     }
     const std::vector<WayToMiddle> ways = ways_to_middle(arms, fills[k]);
     std::vector<double> halves;
     double sum = 0;
     for (std::size_t i = 0; i < at.size(); ++i) {
-      const double half = half_conductance_[at[i]];
+      const double half = half_conductance(at[i], ridge);
       halves.push_back(half / (ways[i].kept + half * ways[i].added));
       sum += halves[i];
     }
@@ -174,13 +187,13 @@ void FractureHeat::connect(const Vector& resistivity, const Vector& aperture) {
 }
 
 void FractureHeat::evaluate_data(const StepTime& step) {
-  end_temperature_ = Vector::Zero(static_cast<int>(mesh_.fracture_points.size()));
+  end_temperature_ = Vector::Zero(static_cast<int>(mesh_.ridges.size()));
   for (int p = 0; p < end_temperature_.size(); ++p) {
     const Data* given = end_condition(p);
     if (!given) continue;
-    const FracturePoint& point = mesh_.fracture_points[p];
+    const Ridge& point = mesh_.ridges[p];
     Place place = fracture_cell_place(mesh_, point.cells[0]);
-    place.x = point.position;
+    place.x = point.center;
     end_temperature_[p] = value_in_step(*given, place, step);
   }
 }
@@ -189,7 +202,7 @@ Vector FractureHeat::leaving() const {
   Vector leaving = Vector::Zero(mesh_.fracture_cell_count());
   for (int p = 0; p < conductance_to_end_.size(); ++p) {
     if (conductance_to_end_[p] == 0) continue;
-    const int cell = mesh_.fracture_points[p].cells[0];
+    const int cell = mesh_.ridges[p].cells[0];
     leaving[cell] += conductance_to_end_[p] * (temperature_.now()[cell] - end_temperature_[p]);
   }
   return leaving;
@@ -205,10 +218,8 @@ void FractureHeat::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.derivative(temperature_, temperature_, capacity_of_temperature_);
   Vector outflow = outflow_of_temperature_.entries() * temperature_.now();
   for (int p = 0; p < conductance_to_end_.size(); ++p)
-    if (conductance_to_end_[p] != 0)
-      outflow[mesh_.fracture_points[p].cells[0]] -= conductance_to_end_[p] * end_temperature_[p];
-  heat.exchange(step.dt * outflow, step.dt * leaving(),
-                step.dt * half_conductance_.lpNorm<Eigen::Infinity>() * largest);
+    if (conductance_to_end_[p] != 0) outflow[mesh_.ridges[p].cells[0]] -= conductance_to_end_[p] * end_temperature_[p];
+  heat.exchange(step.dt * outflow, step.dt * leaving(), step.dt * largest_conductance_ * largest);
   assembly.derivative(temperature_, temperature_, outflow_of_temperature_, step.dt);
 }
 

@@ -55,15 +55,18 @@ class FractureHeat : public Component, public FractureTemperature, public KeepsT
   const Data* end_condition(int point) const;  ///< nullptr where there is none
   /// `resistivity`: of each cell along it, m K/W; `aperture`: m.
   void connect(const Vector& resistivity, const Vector& aperture);
+  double half_length(int cell, int ridge) const;
+  double half_conductance(int cell, int ridge) const;
   Vector leaving() const;  ///< W/m, of each cell: what is conducted out through ends on sides
 
   const Mesh& mesh_;
   Options options_;
   Field& temperature_;
   Vector initial_temperature_;
-  Field& cumulative_;        ///< (stored, outflow) of each fracture cell since the start, J/m
-  Vector capacity_;          ///< J/(m K)
-  Vector half_conductance_;  ///< W/(m K), of half a cell, along it
+  Field& cumulative_;               ///< (stored, outflow) of each fracture cell since the start, J/m
+  Vector capacity_;                 ///< J/(m K)
+  Vector conductance_along_;        ///< conductivity times aperture, W/K
+  double largest_conductance_ = 0;  ///< of half a cell, W/(m K)
   Vector wall_conductance_;
   Operator capacity_of_temperature_, outflow_of_temperature_;
   Vector conductance_to_end_;  ///< W/(m K), of each fracture point on a side with a temperature; else 0

@@ -7,7 +7,7 @@
 #include "components/capabilities/overshoots.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {

@@ -4,7 +4,7 @@
 
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/cell_mean.hpp"
+#include "framework/mesh/plane/cell_mean.hpp"
 
 namespace sprekk::matrix_flow {
 

@@ -10,9 +10,9 @@
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/cell_mean.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_heat {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "framework/dense/symmetric_eigen.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::poromechanics {
 namespace {

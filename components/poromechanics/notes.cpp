@@ -9,7 +9,7 @@
 #include "components/poromechanics/check_conditions.hpp"
 #include "components/poromechanics/rock.hpp"
 #include "components/poromechanics/start_balance.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::poromechanics {
 

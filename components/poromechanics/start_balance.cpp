@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "components/poromechanics/check_conditions.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::poromechanics {
 namespace {

@@ -332,7 +332,7 @@ class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
     }
     if (const auto& entries = entries_of(Stream::Flux::wall); !entries.empty())
       assembly.derivative(temperature, walls_->wall_flux(), block(entries, mesh_.wall_count()));
-    if (const auto& entries = entries_of(Stream::Flux::fracture_point); !entries.empty())
+    if (const auto& entries = entries_of(Stream::Flux::ridge); !entries.empty())
       assembly.derivative(temperature, fracture_->flux(), block(entries, fracture_->flux().size()));
     if (const auto& entries = entries_of(Stream::Flux::well); !entries.empty())
       assembly.derivative(temperature, wells_.wells->rate(), block(entries, wells_.wells->rate().size()));

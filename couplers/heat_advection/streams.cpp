@@ -97,9 +97,9 @@ std::vector<Stream> streams_of_fractures(const StreamSources& sources, const Flo
   if (!sources.fracture || !sources.fracture_heat) return streams;
   const Mesh& mesh = sources.mesh;
   const Vector& fluxes = rates.points;
-  for (int p = 0; p < static_cast<int>(mesh.fracture_points.size()); ++p) {
+  for (int p = 0; p < static_cast<int>(mesh.ridges.size()); ++p) {
     if (fluxes[p] == 0) continue;
-    const FracturePoint& point = mesh.fracture_points[p];
+    const Ridge& point = mesh.ridges[p];
     for (std::size_t k = 0; k < point.cells.size(); ++k) {
       const double sign = k == 0 ? -1 : 1;
       Stream stream{point.cells[k], sign * fluxes[p], Stream::From::fracture_cell};
@@ -109,7 +109,7 @@ std::vector<Stream> streams_of_fractures(const StreamSources& sources, const Flo
       } else {
         stream.index = point.cells[1 - k];
       }
-      streams.push_back(with_flux(stream, Stream::Flux::fracture_point, p, sign));
+      streams.push_back(with_flux(stream, Stream::Flux::ridge, p, sign));
     }
   }
   append_walls(sources, rates.walls, -1, streams);

@@ -16,7 +16,7 @@ struct Stream {
   enum class From { own, rock_cell, fracture_cell, given, well };
   /// What the rate is a multiple of: the flux through a face, a wall, a fracture point, the rate of a well at a place,
   /// or nothing that is solved for.
-  enum class Flux { face, wall, fracture_point, well, none };
+  enum class Flux { face, wall, ridge, well, none };
   int cell;
   double rate;  ///< m^2/s
   From from;

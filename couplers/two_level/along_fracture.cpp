@@ -18,13 +18,13 @@ AlongFracture::AlongFracture(const Mesh& mesh, int fracture) {
     for (const int i : junction.cells) {
       const FractureCell& cell = mesh.fracture_cells[i];
       if (cell.fracture != fracture) continue;
-      const Point& position = mesh.fracture_points[junction.points[0]].position;
+      const Point& position = mesh.ridges[junction.ridges[0]].center;
       const int end = (position - cell.center).dot(cell.tangents) > 0 ? 1 : 0;
       cells_[i - all.first_cell].at_junction[end].emplace(mesh, junction);
     }
-  const auto is_tip = [&](int point) { return mesh.fracture_points[point].kind == FracturePoint::Kind::tip; };
-  tip_at_first_ = is_tip(mesh.fracture_cells[cells_.front().index].points[0]);
-  tip_at_last_ = is_tip(mesh.fracture_cells[cells_.back().index].points[1]);
+  const auto is_tip = [&](int point) { return mesh.ridges[point].kind == Ridge::Kind::tip; };
+  tip_at_first_ = is_tip(mesh.fracture_cells[cells_.front().index].ridges[0]);
+  tip_at_last_ = is_tip(mesh.fracture_cells[cells_.back().index].ridges[1]);
 }
 
 std::size_t AlongFracture::cell_at(double s) const {

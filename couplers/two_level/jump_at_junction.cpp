@@ -7,7 +7,7 @@ namespace sprekk::couplers {
 JumpAtJunction::JumpAtJunction(const Mesh& mesh, const Junction& junction) {
   for (const int index : junction.cells) {
     const FractureCell& cell = mesh.fracture_cells[index];
-    const Point& position = mesh.fracture_points[junction.points[0]].position;
+    const Point& position = mesh.ridges[junction.ridges[0]].center;
     const bool leads_here = (position - cell.center).dot(cell.tangents) > 0;
     // The plus side is to the left along the tangent.
     Arm arm{index, none, 0, leads_here ? 1.0 : -1.0, cell};

@@ -12,7 +12,7 @@ inline constexpr double least_bend = 1e-8;
 inline bool is_straight_on(const Mesh& mesh, int cell) {
   if (cell < 0 || cell + 1 >= mesh.fracture_cell_count()) return false;
   const FractureCell &here = mesh.fracture_cells[cell], &next = mesh.fracture_cells[cell + 1];
-  return here.fracture == next.fracture && mesh.fracture_points[here.points[1]].kind != FracturePoint::Kind::junction &&
+  return here.fracture == next.fracture && mesh.ridges[here.ridges[1]].kind != Ridge::Kind::junction &&
          here.tangents.dot(next.tangents) > 1 - least_bend;
 }
 

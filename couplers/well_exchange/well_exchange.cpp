@@ -19,8 +19,8 @@
 #include "framework/discretization/point_source.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
-#include "framework/mesh/planar.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/plane/point_location.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {

@@ -8,7 +8,7 @@
 #include "framework/assembly/floating_balances.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -25,9 +25,8 @@ std::vector<Point> coordinates(const Mesh& mesh, Location location) {
   if (location == Location::fracture_cell || location == Location::wall)
     for (const FractureCell& cell : mesh.fracture_cells)
       points.insert(points.end(), location == Location::wall ? 2 : 1, cell.center);
-  if (location == Location::fracture_point)
-    for (const FracturePoint& point : mesh.fracture_points)
-      points.push_back(mesh.fracture_cells[point.cells[0]].center);
+  if (location == Location::ridge)
+    for (const Ridge& point : mesh.ridges) points.push_back(mesh.fracture_cells[point.cells[0]].center);
   return points;
 }
 

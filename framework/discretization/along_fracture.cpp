@@ -19,8 +19,8 @@ std::vector<Neighbour> neighbours_of(const Mesh& mesh, int cell) {
   const FractureCell& home = mesh.fracture_cells[cell];
   std::vector<Neighbour> neighbours;
   for (int k = 0; k < 2; ++k) {
-    const FracturePoint& end = mesh.fracture_points[home.points[k]];
-    if (end.kind != FracturePoint::Kind::inside) continue;
+    const Ridge& end = mesh.ridges[home.ridges[k]];
+    if (end.kind != Ridge::Kind::inside) continue;
     const int other = end.cells[0] == cell ? end.cells[1] : end.cells[0];
     const double apart = 0.5 * (home.measure + mesh.fracture_cells[other].measure);
     neighbours.push_back({other, k == 0 ? -apart : apart});
@@ -48,7 +48,7 @@ void add_polynomial(const Mesh& mesh, int cell, double t, double share, std::map
 std::vector<std::pair<int, double>> along_fracture(const Mesh& mesh, int cell, const Point& x) {
   SPREKK_EXPECT(is_index(cell, mesh.fracture_cell_count()) && is_finite(x), cell);
   const FractureCell& home = mesh.fracture_cells[cell];
-  const auto position = [&](int k) { return mesh.fracture_points[home.points[k]].position; };
+  const auto position = [&](int k) { return mesh.ridges[home.ridges[k]].center; };
   const double t =
       std::clamp((x - home.center).dot((position(1) - position(0)).normalized()), -home.measure, home.measure);
   for (const Neighbour& next : neighbours_of(mesh, cell)) {

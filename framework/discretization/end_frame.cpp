@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {
@@ -16,7 +16,7 @@ constexpr int most_cells = 32;  ///< behind an end, of which the side of a point
 /// The ends of the cells of a fracture, from that of its last cell, or of its first one, backwards.
 std::vector<Point> line_from(const Mesh& mesh, int cell, bool at_end) {
   const Fracture& fracture = mesh.fractures[mesh.fracture_cells[cell].fracture];
-  const auto end_of = [&](int i, int k) { return mesh.fracture_points[mesh.fracture_cells[i].points[k]].position; };
+  const auto end_of = [&](int i, int k) { return mesh.ridges[mesh.fracture_cells[i].ridges[k]].center; };
   std::vector<Point> line{end_of(cell, at_end ? 1 : 0)};
   for (int k = 0; k < std::min(most_cells, fracture.cell_count); ++k)
     line.push_back(end_of(at_end ? cell - k : cell + k, at_end ? 0 : 1));

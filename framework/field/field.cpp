@@ -16,8 +16,8 @@ int entity_count(const Mesh& mesh, Location location) {
       return mesh.node_count();
     case Location::fracture_cell:
       return mesh.fracture_cell_count();
-    case Location::fracture_point:
-      return static_cast<int>(mesh.fracture_points.size());
+    case Location::ridge:
+      return static_cast<int>(mesh.ridges.size());
     case Location::wall:
       return mesh.wall_count();
     case Location::listed:

@@ -10,10 +10,10 @@
 
 namespace sprekk {
 
-/// The entities that carry a field's values. Walls are numbered 2 i + side for fracture cell i; fracture points are the
-/// ends of fracture cells. `listed`: entities of a list that the owner keeps, without a place on the mesh; few, all on
-/// the first process, and the same after a change of the mesh.
-enum class Location { cell, face, node, fracture_cell, fracture_point, wall, listed };
+/// The entities that carry a field's values. Walls are numbered 2 i + side for fracture cell i; ridges are what lies
+/// between fracture cells, or ends fractures. `listed`: entities of a list that the owner keeps, without a place on the
+/// mesh; few, all on the first process, and the same after a change of the mesh.
+enum class Location { cell, face, node, fracture_cell, ridge, wall, listed };
 /// The number of entities in the whole mesh, not those of this process alone. Throws std::logic_error for listed
 /// entities, which the mesh does not know.
 int entity_count(const Mesh& mesh, Location location);

@@ -1,7 +1,7 @@
 #include "framework/field/linear_pieces.hpp"
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 

@@ -15,8 +15,8 @@ int entity_rank(const Mesh& mesh, Location location, int entity) {
       return mesh.cell_rank[entity];
     case Location::fracture_cell:
       return mesh.fracture_cell_rank(entity);
-    case Location::fracture_point:
-      return mesh.fracture_cell_rank(mesh.fracture_points[entity].cells[0]);
+    case Location::ridge:
+      return mesh.fracture_cell_rank(mesh.ridges[entity].cells[0]);
     case Location::wall:
       return mesh.fracture_cell_rank(entity / 2);
     case Location::face:

@@ -12,7 +12,7 @@ namespace sprekk {
 namespace {
 
 std::vector<std::pair<int, double>> face_weights(const Mesh& mesh, int cell, const Point& x) {
-  const Ring& faces = mesh.cell_faces[cell];
+  const CellFaces& faces = mesh.cell_faces[cell];
   // Minimizes sum (a + b·(x_face − x) − value)^2; the weights of a are the first row of the pseudo-inverse.
   Eigen::MatrixXd basis(faces.size(), 1 + dimension);
   const double scale = std::pow(mesh.cell_measure[cell], 1.0 / dimension);

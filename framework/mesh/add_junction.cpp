@@ -2,32 +2,28 @@
 
 namespace sprekk {
 
-void add_junction(Mesh& mesh, const Point& position, const std::vector<FractureCellEnd>& ends) {
-  const auto fracture_of = [&](const FractureCellEnd& end) { return mesh.fracture_cells[end.cell].fracture; };
+void add_junction(Mesh& mesh, const Ridge& place, const std::vector<RidgeOfCell>& at) {
   const auto are_neighbours = [&](std::size_t i, std::size_t j) {
-    return ends[j].cell == ends[i].cell + 1 && fracture_of(ends[i]) == fracture_of(ends[j]);
+    return mesh.fracture_cells[at[i].cell].fracture == mesh.fracture_cells[at[j].cell].fracture;
   };
+  const auto ridge_at = [&](std::size_t i) -> int& { return mesh.fracture_cells[at[i].cell].ridges[at[i].ridge]; };
   Junction junction;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    junction.cells.push_back(ends[i].cell);
-    const bool has_neighbour = (i > 0 && are_neighbours(i - 1, i)) || (i + 1 < ends.size() && are_neighbours(i, i + 1));
-    int& own_point = mesh.fracture_cells[ends[i].cell].points[ends[i].end];
-    if (!has_neighbour) own_point = none;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    junction.cells.push_back(at[i].cell);
+    const bool has_neighbour = (i > 0 && are_neighbours(i - 1, i)) || (i + 1 < at.size() && are_neighbours(i, i + 1));
+    if (!has_neighbour) ridge_at(i) = none;
   }
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    int& own_point = mesh.fracture_cells[ends[i].cell].points[ends[i].end];
-    for (std::size_t j = i + 1; j < ends.size(); ++j) {
-      int& other_point = mesh.fracture_cells[ends[j].cell].points[ends[j].end];
-      int point = own_point;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    for (std::size_t j = i + 1; j < at.size(); ++j) {
+      int ridge = ridge_at(i);
       if (!are_neighbours(i, j)) {
-        point = static_cast<int>(mesh.fracture_points.size());
-        mesh.fracture_points.push_back({position, {ends[i].cell, ends[j].cell}, FracturePoint::Kind::junction, none});
+        ridge = static_cast<int>(mesh.ridges.size());
+        mesh.ridges.push_back({place.center, place.measure, {at[i].cell, at[j].cell}, Ridge::Kind::junction, none});
       }
-      junction.points.push_back(point);
-      if (own_point == none) own_point = point;
-      if (other_point == none) other_point = point;
+      junction.ridges.push_back(ridge);
+      if (ridge_at(i) == none) ridge_at(i) = ridge;
+      if (ridge_at(j) == none) ridge_at(j) = ridge;
     }
-  }
   mesh.junctions.push_back(std::move(junction));
 }
 

@@ -1,4 +1,4 @@
-// Adds a place where fractures meet, and the fracture points between the cells that meet there.
+// Adds a place where fractures meet, and the ridges between the cells that meet there.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace sprekk {
 
-/// One end of a fracture cell; `end` is 0 or 1, as in FractureCell::points.
-struct FractureCellEnd {
-  int cell, end;
+/// One of FractureCell::ridges of a cell.
+struct RidgeOfCell {
+  int cell, ridge;
 };
 
-/// Adds the junction of the given ends, which are in ascending order of their cells, with a fracture point for each
-/// pair of cells. Points between neighbours in a fracture exist already.
-void add_junction(Mesh& mesh, const Point& position, const std::vector<FractureCellEnd>& ends);
+/// Adds the junction of the given cells, in ascending order, with a ridge for each pair of them. The ridges between
+/// cells of one fracture exist already. `place`: a ridge there, with the place and the measure of the junction.
+void add_junction(Mesh& mesh, const Ridge& place, const std::vector<RidgeOfCell>& at);
 
 }  // namespace sprekk

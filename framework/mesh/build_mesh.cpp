@@ -7,13 +7,13 @@
 #include <string>
 
 #include "framework/config/input_error.hpp"
-#include "framework/mesh/add_junction.hpp"
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/cell_shape.hpp"
-#include "framework/mesh/counter_clockwise.hpp"
+#include "framework/invariants.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
-#include "framework/mesh/medium.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/face_table.hpp"
+#include "framework/mesh/fracture_ridges.hpp"
+#include "framework/mesh/geometry.hpp"
+#include "framework/mesh/oriented_cells.hpp"
+#include "framework/mesh/outer_ridges.hpp"
 
 namespace sprekk {
 namespace {
@@ -22,23 +22,18 @@ namespace {
 class MeshBuilder {
  public:
   explicit MeshBuilder(const RawMesh& raw)
-      : raw_(raw),
-        cells_(counter_clockwise(raw)),
-        edges_(raw.nodes, cells_),
-        edge_side_(edges_.size(), none),
-        edge_fracture_cell_(edges_.size(), none),
-        outer_edges_at_node_(raw.nodes.size(), 0),
-        fracture_of_node_(raw.nodes.size(), none),
-        is_junction_(raw.nodes.size(), false) {}
+      : raw_(raw), cells_(oriented_cells(raw)), faces_(raw.nodes, cells_), fracture_cell_(faces_.size(), none) {}
 
   Mesh build() {
     name_sides_and_regions();
-    read_boundary();
+    outer_ = OuterRidges(raw_, faces_);
     read_fractures();
     number_nodes();
     number_faces();
     place_fracture_cells();
-    list_neighbours_of_nodes();
+    ridges_.add_to(mesh_, raw_, outer_);
+    mesh_.node_cells = invert(mesh_.cell_nodes);
+    mesh_.node_faces = invert(mesh_.face_nodes);
     compute_geometry();
     mesh_.cell_rank.assign(mesh_.cell_count(), 0);
     mesh_.version = next_mesh_version();
@@ -61,93 +56,37 @@ class MeshBuilder {
     mesh_.cell_region = raw_.regions;
   }
 
-  void read_boundary() {
-    for (const auto& [nodes, side] : raw_.boundary_edges) {
-      if (side < 0 || side >= static_cast<int>(raw_.side_names.size())) {
-        throw std::logic_error("raw mesh: side " + std::to_string(side) + " has no name");
-      }
-      const std::string name = "side '" + raw_.side_names[side] + "'";
-      const int edge = edges_.find(nodes[0], nodes[1]);
-      if (edge == none)
-        throw InputError(name + " has an edge that no cell has (between nodes " + std::to_string(nodes[0]) + " and " +
-                         std::to_string(nodes[1]) + ")");
-      if (!edges_.is_outer(edge)) throw InputError(name + " has an edge inside the mesh at " + middle(edge));
-      if (edge_side_[edge] != none && edge_side_[edge] != side) {
-        throw InputError("the edge at " + middle(edge) + " belongs to two sides ('" +
-                         raw_.side_names[edge_side_[edge]] + "' and '" + raw_.side_names[side] + "')");
-      }
-      edge_side_[edge] = side;
-    }
-    for (int edge = 0; edge < edges_.size(); ++edge) {
-      if (!edges_.is_outer(edge)) continue;
-      if (edge_side_[edge] == none) throw InputError("the outer edge at " + middle(edge) + " belongs to no side");
-      for (const int node : edges_.nodes(edge)) ++outer_edges_at_node_[node];
-    }
-    for (std::size_t node = 0; node < raw_.nodes.size(); ++node) {
-      if (outer_edges_at_node_[node] > 2) {
-        throw InputError("the outer boundary touches itself at " + to_text(raw_.nodes[node]) +
-                         " (cells meet there in one node only)");
-      }
-    }
-  }
-
   void read_fractures() {
     for (int fracture = 0; fracture < static_cast<int>(raw_.fractures.size()); ++fracture) {
-      const auto& [name, chain] = raw_.fractures[fracture];
-      if (chain.size() < 2) throw InputError("fracture '" + name + "' has no edge");
-      for (std::size_t i = 0; i < chain.size(); ++i) claim_node(fracture, chain, i);
-      mesh_.fractures.push_back({name, mesh_.fracture_cell_count(), static_cast<int>(chain.size()) - 1});
-      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        const int edge = edges_.find(chain[i], chain[i + 1]);
-        if (edge == none) {
-          throw InputError("fracture '" + name + "' leaves the edges of the mesh between " +
-                           to_text(raw_.nodes[chain[i]]) + " and " + to_text(raw_.nodes[chain[i + 1]]));
+      const std::string& name = raw_.fractures[fracture].name;
+      const std::vector<FaceNodes> faces = faces_of(raw_, raw_.fractures[fracture]);
+      ridges_.add(raw_, fracture, faces, outer_);
+      mesh_.fractures.push_back({name, mesh_.fracture_cell_count(), static_cast<int>(faces.size())});
+      for (const FaceNodes& nodes : faces) {
+        const int face = faces_.find(nodes);
+        if (face == none) {
+          throw InputError("fracture '" + name + "' leaves the " + (dimension == 2 ? "edges" : "faces") +
+                           " of the mesh between " + to_text(raw_.nodes[nodes[0]]) + " and " +
+                           to_text(raw_.nodes[nodes[1]]));
         }
-        if (edges_.is_outer(edge)) {
-          throw InputError("fracture '" + name + "' runs along the outer boundary at " + middle(edge));
-        }
-        if (edge_fracture_cell_[edge] != none) {
-          const int other = mesh_.fracture_cells[edge_fracture_cell_[edge]].fracture;
-          throw InputError("fractures '" + raw_.fractures[other].name + "' and '" + name +
-                           "' run along the same edge at " + middle(edge) +
+        if (faces_.is_outer(face))
+          throw InputError("fracture '" + name + "' runs along the outer boundary at " + middle(face));
+        if (fracture_cell_[face] != none) {
+          const int other = mesh_.fracture_cells[fracture_cell_[face]].fracture;
+          throw InputError("fractures '" + raw_.fractures[other].name + "' and '" + name + "' run along the same " +
+                           face_name + " at " + middle(face) +
                            " (fractures may touch and cross, but not overlap) end one where they meet");
         }
-        edge_fracture_cell_[edge] = mesh_.fracture_cell_count();
-        mesh_.fracture_cells.push_back({fracture, {}, {}, Point::Zero(), 0, Point::Zero(), Point::Zero()});
+        fracture_cell_[face] = mesh_.fracture_cell_count();
+        mesh_.fracture_cells.push_back({fracture, {}, nodes, Point::Zero(), 0, Point::Zero(), Tangents::Zero()});
+        fracture_faces_.push_back(nodes);
       }
     }
-  }
-
-  void claim_node(int fracture, const std::vector<int>& chain, std::size_t i) {
-    const std::string& name = raw_.fractures[fracture].name;
-    const int node = chain[i];
-    if (node < 0 || node >= static_cast<int>(raw_.nodes.size())) {
-      throw InputError("fracture '" + name + "' names node " + std::to_string(node) + ", which does not exist");
-    }
-    const std::string where = " at " + to_text(raw_.nodes[node]);
-    if (fracture_of_node_[node] == fracture) {
-      throw InputError("fracture '" + name + "' meets itself" + where +
-                       " (loops and branches are not supported) leave a gap or make it two fractures");
-    }
-    if (fracture_of_node_[node] != none) {
-      if (outer_edges_at_node_[node] > 0) {
-        throw InputError("fractures '" + raw_.fractures[fracture_of_node_[node]].name + "' and '" + name + "' meet" +
-                         where + " (fractures may not meet on the outer boundary) let them meet inside of the " +
-                         medium_name());
-      }
-      is_junction_[node] = true;
-    }
-    const bool is_end = i == 0 || i + 1 == chain.size();
-    if (!is_end && outer_edges_at_node_[node] > 0) {
-      throw InputError("fracture '" + name + "' touches the outer boundary" + where +
-                       " (only its ends may lie on the boundary)");
-    }
-    fracture_of_node_[node] = fracture;
   }
 
   void number_nodes() {
     std::vector<int> number(raw_.nodes.size(), none);
-    for (const Ring& cell : cells_) {
+    for (const CellNodes& cell : cells_) {
       for (const int node : cell) number[node] = 0;
     }
     for (std::size_t node = 0; node < raw_.nodes.size(); ++node) {
@@ -164,29 +103,25 @@ class MeshBuilder {
 
   void split_nodes() {
     std::vector<int> place(raw_.nodes.size(), none);
-    std::vector<std::vector<int>> cells_at;
-    for (const auto& [name, chain] : raw_.fractures) {
-      for (const int node : chain) {
+    std::vector<int> nodes;  // of fractures, each once
+    for (const FaceNodes& face : fracture_faces_) {
+      for (const int node : face) {
         if (place[node] != none) continue;
-        place[node] = static_cast<int>(cells_at.size());
-        cells_at.emplace_back();
+        place[node] = static_cast<int>(nodes.size());
+        nodes.push_back(node);
       }
     }
-    if (cells_at.empty()) return;
+    if (nodes.empty()) return;
+    std::vector<std::vector<int>> cells_at(nodes.size());
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
       for (const int node : cells_[cell]) {
         if (place[node] != none) cells_at[place[node]].push_back(cell);
       }
     }
-    for (const auto& [name, chain] : raw_.fractures) {
-      for (const int node : chain) {
-        if (place[node] == none) continue;
-        split_node(node, cells_at[place[node]]);
-        place[node] = none;
-      }
-    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) split_node(nodes[i], cells_at[i]);
   }
 
+  /// Gives each group of cells that are connected through faces at the node, fractures left out, a node of its own.
   /// `cells` are those at the raw node, ascending.
   void split_node(int node, const std::vector<int>& cells) {
     std::vector<int> group(cells.size(), none);
@@ -199,15 +134,10 @@ class MeshBuilder {
       while (!front.empty()) {
         const int cell = cells[front.back()];
         front.pop_back();
-        for (int k = 0; k < cells_[cell].size(); ++k) {
-          if (cells_[cell][k] != node) {
-            if (cells_[cell].after(k) != node) continue;
-          } else if (copy != none) {
-            mesh_.cell_nodes[cell][k] = copy;
-          }
-          const int edge = edges_.of_cell(cell)[k];
-          if (edge_fracture_cell_[edge] != none || edges_.is_outer(edge)) continue;
-          const auto [one, other] = edges_.cells(edge);
+        if (copy != none) mesh_.cell_nodes[cell][place_in(cells_[cell], node)] = copy;
+        for (const int face : faces_.of_cell(cell)) {
+          if (fracture_cell_[face] != none || faces_.is_outer(face) || !has(faces_.nodes(face), node)) continue;
+          const auto [one, other] = faces_.cells(face);
           const auto next = std::lower_bound(cells.begin(), cells.end(), one == cell ? other : one) - cells.begin();
           if (group[next] != none) continue;
           group[next] = static_cast<int>(groups);
@@ -217,99 +147,53 @@ class MeshBuilder {
     }
   }
 
+  static bool has(const FaceNodes& face, int node) { return std::find(face.begin(), face.end(), node) != face.end(); }
+  static int place_in(const CellNodes& cell, int node) {
+    return static_cast<int>(std::find(cell.begin(), cell.end(), node) - cell.begin());
+  }
+
   void number_faces() {
-    std::vector<int> face_of_edge(edges_.size(), none);
-    mesh_.cell_faces = mesh_.cell_nodes;  // as long as they are
-    const std::size_t expected = edges_.size() + mesh_.fracture_cells.size();
+    std::vector<int> number(faces_.size(), none);
+    const std::size_t expected = faces_.size() + mesh_.fracture_cells.size();
     mesh_.face_nodes.reserve(expected);
     mesh_.face_cells.reserve(expected);
+    mesh_.cell_faces.reserve(mesh_.cell_count());
     for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
-      const Ring& nodes = mesh_.cell_nodes[cell];
-      for (int k = 0; k < nodes.size(); ++k) {
-        const int edge = edges_.of_cell(cell)[k];
-        const bool is_wall = edge_fracture_cell_[edge] != none;
-        int face = is_wall ? none : face_of_edge[edge];
+      mesh_.cell_faces.push_back(faces_.of_cell(cell));
+      int k = 0;
+      for (int& face : mesh_.cell_faces.back()) {
+        const int raw_face = face, fracture_cell = fracture_cell_[raw_face];
+        face = fracture_cell != none ? none : number[raw_face];
         if (face == none) {
-          face = face_of_edge[edge] = mesh_.face_count();
-          mesh_.face_nodes.push_back({nodes[k], nodes.after(k)});
+          face = number[raw_face] = mesh_.face_count();
+          mesh_.face_nodes.push_back(nodes_of_face(mesh_.cell_nodes[cell], k));
           mesh_.face_cells.push_back({cell, none});
-          mesh_.face_side.push_back(edge_side_[edge]);
-          mesh_.face_fracture_cell.push_back(edge_fracture_cell_[edge]);
+          mesh_.face_side.push_back(outer_.side_of_face(raw_face));
+          mesh_.face_fracture_cell.push_back(fracture_cell);
+          if (fracture_cell != none) set_wall(fracture_cell, face, nodes_of_face(cells_[cell], k));
         } else {
           mesh_.face_cells[face][1] = cell;
         }
-        mesh_.cell_faces[cell][k] = face;
+        ++k;
       }
     }
+  }
+
+  /// The cell that has the face as the fracture has it lies on the plus side.
+  void set_wall(int fracture_cell, int face, const FaceNodes& as_cell_has_it) {
+    const Wall wall = turn_alike(as_cell_has_it, fracture_faces_[fracture_cell]) ? Wall::plus : Wall::minus;
+    mesh_.fracture_cells[fracture_cell].faces[static_cast<int>(wall)] = face;
   }
 
   void place_fracture_cells() {
-    std::map<int, std::vector<FractureCellEnd>> ends_at;  // by the raw node of a junction
-    for (int fracture = 0; fracture < static_cast<int>(raw_.fractures.size()); ++fracture) {
-      const auto& chain = raw_.fractures[fracture].nodes;
-      const int first_cell = mesh_.fractures[fracture].first_cell;
-      const int last = static_cast<int>(chain.size()) - 1;
-      for (int i = 0; i <= last; ++i) {
-        const int point = static_cast<int>(mesh_.fracture_points.size());
-        if (i > 0) mesh_.fracture_cells[first_cell + i - 1].points[1] = point;
-        if (i < last) mesh_.fracture_cells[first_cell + i].points[0] = point;
-        const bool is_end = i == 0 || i == last;
-        if (is_junction_[chain[i]]) {
-          if (i > 0) ends_at[chain[i]].push_back({first_cell + i - 1, 1});
-          if (i < last) ends_at[chain[i]].push_back({first_cell + i, 0});
-          if (is_end) continue;
-        }
-        mesh_.fracture_points.push_back(fracture_point(chain[i], first_cell, i, last));
-      }
-      for (int i = 0; i < last; ++i) place_fracture_cell(mesh_.fracture_cells[first_cell + i], chain[i], chain[i + 1]);
+    for (std::size_t i = 0; i < fracture_faces_.size(); ++i) {
+      const FaceGeometry geometry = face_geometry(raw_.nodes, fracture_faces_[i]);
+      FractureCell& cell = mesh_.fracture_cells[i];
+      cell.center = geometry.center;
+      cell.measure = geometry.measure;
+      cell.normal = geometry.normal;
+      cell.tangents = tangents_of(geometry.normal);
     }
-    // In the order of fractures, so that the result does not depend on how the nodes are numbered.
-    for (const auto& [name, chain] : raw_.fractures) {
-      for (const int node : chain) {
-        const auto found = ends_at.find(node);
-        if (found == ends_at.end()) continue;
-        add_junction(mesh_, raw_.nodes[node], found->second);
-        ends_at.erase(found);
-      }
-    }
-  }
-
-  void place_fracture_cell(FractureCell& cell, int first, int second) {
-    const Point &from = raw_.nodes[first], &to = raw_.nodes[second];
-    cell.center = 0.5 * (from + to);
-    cell.measure = (to - from).norm();
-    cell.tangents = (to - from) / cell.measure;
-    cell.normal = {cell.tangents.y(), -cell.tangents.x()};
-    const int edge = edges_.find(first, second);
-    for (const int side : edges_.cells(edge)) {
-      for (int k = 0; k < cells_[side].size(); ++k) {
-        if (edges_.of_cell(side)[k] != edge) continue;
-        // The cell that runs along the edge in the chain's direction lies to its left: the plus side.
-        const Wall wall = cells_[side][k] == first ? Wall::plus : Wall::minus;
-        cell.faces[static_cast<int>(wall)] = mesh_.cell_faces[side][k];
-      }
-    }
-  }
-
-  FracturePoint fracture_point(int node, int first_cell, int i, int last) const {
-    FracturePoint point{raw_.nodes[node], {}, FracturePoint::Kind::inside, none};
-    if (i > 0) point.cells.push_back(first_cell + i - 1);
-    if (i < last) point.cells.push_back(first_cell + i);
-    if (is_junction_[node]) point.kind = FracturePoint::Kind::junction;
-    if (is_junction_[node] || point.cells.size() == 2) return point;
-    point.kind = outer_edges_at_node_[node] > 0 ? FracturePoint::Kind::on_boundary : FracturePoint::Kind::tip;
-    if (point.kind == FracturePoint::Kind::on_boundary) point.side = side_at(node);
-    return point;
-  }
-
-  /// At a corner between two sides: the one with the smaller index.
-  int side_at(int node) const {
-    int side = none;
-    for (const auto& edge : raw_.boundary_edges) {
-      if (edge.nodes[0] != node && edge.nodes[1] != node) continue;
-      if (side == none || edge.side < side) side = edge.side;
-    }
-    return side;
   }
 
   template <class Lists>
@@ -328,41 +212,34 @@ class MeshBuilder {
     return at_node;
   }
 
-  void list_neighbours_of_nodes() {
-    mesh_.node_cells = invert(mesh_.cell_nodes);
-    mesh_.node_faces = invert(mesh_.face_nodes);
-  }
-
   void compute_geometry() {
     mesh_.cell_center.reserve(mesh_.cell_count());
     mesh_.cell_measure.reserve(mesh_.cell_count());
-    for (const Ring& cell : mesh_.cell_nodes) {
-      mesh_.cell_center.push_back(centroid(mesh_.nodes, cell));
-      mesh_.cell_measure.push_back(signed_area(mesh_.nodes, cell));
+    for (const CellNodes& cell : mesh_.cell_nodes) {
+      const auto [center, measure] = cell_geometry(mesh_.nodes, cell);
+      mesh_.cell_center.push_back(center);
+      mesh_.cell_measure.push_back(measure);
     }
     mesh_.face_center.reserve(mesh_.face_count());
     mesh_.face_measure.reserve(mesh_.face_count());
     mesh_.face_normal.reserve(mesh_.face_count());
-    for (const auto& [a, b] : mesh_.face_nodes) {
-      const Point along = mesh_.nodes[b] - mesh_.nodes[a];
-      mesh_.face_center.push_back(0.5 * (mesh_.nodes[a] + mesh_.nodes[b]));
-      mesh_.face_measure.push_back(along.norm());
-      mesh_.face_normal.push_back(Point(along.y(), -along.x()) / along.norm());
+    for (const FaceNodes& face : mesh_.face_nodes) {
+      const auto [center, measure, normal] = face_geometry(mesh_.nodes, face);
+      mesh_.face_center.push_back(center);
+      mesh_.face_measure.push_back(measure);
+      mesh_.face_normal.push_back(normal);
     }
   }
 
-  std::string middle(int edge) const {
-    return to_text(0.5 * (raw_.nodes[edges_.nodes(edge)[0]] + raw_.nodes[edges_.nodes(edge)[1]]));
-  }
+  std::string middle(int face) const { return to_text(face_geometry(raw_.nodes, faces_.nodes(face)).center); }
 
   const RawMesh& raw_;
-  const std::vector<Ring> cells_;  ///< counter-clockwise, with raw nodes
-  const CellEdges edges_;
-  std::vector<int> edge_side_;
-  std::vector<int> edge_fracture_cell_;
-  std::vector<int> outer_edges_at_node_;
-  std::vector<int> fracture_of_node_;  ///< the last one that claimed it
-  std::vector<bool> is_junction_;
+  const std::vector<CellNodes> cells_;  ///< in the order of their shapes, with raw nodes
+  const FaceTable faces_;
+  OuterRidges outer_;
+  FractureRidges ridges_;
+  std::vector<int> fracture_cell_;         ///< whose walls the face becomes, or none
+  std::vector<FaceNodes> fracture_faces_;  ///< of each fracture cell, with raw nodes, as the plus side has them
   Mesh mesh_;
 };
 

@@ -21,10 +21,11 @@ SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int componen
   for (int c = 0; c < mesh.cell_count(); ++c) {
     for (int k = 0; k < components; ++k) {
       if (mesh.cell_rank[c] == rank) {
-        // Merge of three or four sorted rows.
+        // Merge of a few sorted rows.
+        constexpr int most_faces = 6;
         const int count = mesh.cell_faces[c].size();
-        int at[4], end[4];
-        double sign[4];
+        int at[most_faces], end[most_faces];
+        double sign[most_faces];
         for (int j = 0; j < count; ++j) {
           const int face = mesh.cell_faces[c][j];
           at[j] = outer[face * components + k];

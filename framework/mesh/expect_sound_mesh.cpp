@@ -1,6 +1,7 @@
 #include "framework/mesh/expect_sound_mesh.hpp"
 
 #include "framework/invariants.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk {
 
@@ -27,18 +28,19 @@ void expect_sound_lists(const Mesh& mesh) {
 }
 
 void expect_sound_cell(const Mesh& mesh, int cell) {
-  const Ring &nodes = mesh.cell_nodes[cell], &faces = mesh.cell_faces[cell];
-  SPREKK_ASSERT(nodes.size() == faces.size(), cell, nodes.size(), faces.size());
+  const CellNodes& nodes = mesh.cell_nodes[cell];
+  const CellFaces& faces = mesh.cell_faces[cell];
+  SPREKK_ASSERT(faces.size() == faces_to_number(nodes).size(), cell, nodes.size(), faces.size());
   SPREKK_ASSERT(are_indices(nodes, mesh.node_count()), cell);
   SPREKK_ASSERT(are_indices(faces, mesh.face_count()), cell);
   SPREKK_ASSERT(mesh.cell_measure[cell] > 0, cell, mesh.cell_measure[cell]);
   SPREKK_ASSERT(mesh.cell_center[cell].allFinite(), cell);
-  for (int k = 0; k < nodes.size(); ++k) {
-    const std::array<int, 2>& ends = mesh.face_nodes[faces[k]];
+  for (int k = 0; k < faces.size(); ++k) {
+    const FaceNodes wanted = nodes_of_face(nodes, k), &face = mesh.face_nodes[faces[k]];
     const bool is_first = mesh.face_cells[faces[k]][0] == cell;
     SPREKK_ASSERT(is_first || mesh.face_cells[faces[k]][1] == cell, cell, faces[k]);
-    SPREKK_ASSERT(ends[is_first ? 0 : 1] == nodes[k], cell, faces[k], ends[0], ends[1], nodes[k]);
-    SPREKK_ASSERT(ends[is_first ? 1 : 0] == nodes.after(k), cell, faces[k], ends[0], ends[1], nodes.after(k));
+    SPREKK_ASSERT(is_first ? face == wanted : have_same_nodes(face, wanted) && turn_alike(face, reversed(wanted)), cell,
+                  faces[k], face[0], face[1], wanted[0], wanted[1]);
   }
 }
 
@@ -63,12 +65,11 @@ void expect_sound_face(const Mesh& mesh, int face) {
 void expect_sound_fracture_cell(const Mesh& mesh, int i) {
   const FractureCell& cell = mesh.fracture_cells[i];
   SPREKK_ASSERT(is_index(cell.fracture, static_cast<long>(mesh.fractures.size())), i, cell.fracture);
-  SPREKK_ASSERT(are_indices(cell.points, static_cast<long>(mesh.fracture_points.size())), i);
+  SPREKK_ASSERT(are_indices(cell.ridges, static_cast<long>(mesh.ridges.size())), i);
   SPREKK_ASSERT(are_indices(cell.faces, mesh.face_count()), i);
   SPREKK_ASSERT(cell.measure > 0, i, cell.measure);
   SPREKK_ASSERT(std::abs(cell.normal.norm() - 1) < nearly_equal, i, cell.normal.norm());
-  const Point turned(-cell.normal.y(), cell.normal.x());
-  SPREKK_ASSERT((cell.tangents - turned).norm() < nearly_equal, i);
+  SPREKK_ASSERT((cell.tangents - tangents_of(cell.normal)).norm() < nearly_equal, i);
   for (const int face : cell.faces) {
     SPREKK_ASSERT(mesh.face_fracture_cell[face] == i, i, face, mesh.face_fracture_cell[face]);
     SPREKK_ASSERT(std::abs(mesh.face_measure[face] - cell.measure) <= nearly_equal * cell.measure, i, face,
@@ -81,14 +82,15 @@ void expect_sound_fracture_cell(const Mesh& mesh, int i) {
   SPREKK_ASSERT(mesh.face_normal[cell.faces[1]].dot(cell.normal) < 0, i);
 }
 
-void expect_sound_fracture_point(const Mesh& mesh, int p) {
-  using Kind = FracturePoint::Kind;
-  const FracturePoint& point = mesh.fracture_points[p];
-  SPREKK_ASSERT(are_indices(point.cells, mesh.fracture_cell_count()), p);
-  SPREKK_ASSERT(is_ascending(point.cells), p);
-  const bool is_end = point.kind == Kind::tip || point.kind == Kind::on_boundary;
-  SPREKK_ASSERT(point.cells.size() == (is_end ? 1U : 2U), p, point.cells.size());
-  SPREKK_ASSERT((point.side != none) == (point.kind == Kind::on_boundary), p, point.side);
+void expect_sound_ridge(const Mesh& mesh, int p) {
+  using Kind = Ridge::Kind;
+  const Ridge& ridge = mesh.ridges[p];
+  SPREKK_ASSERT(ridge.measure > 0, p, ridge.measure);
+  SPREKK_ASSERT(are_indices(ridge.cells, mesh.fracture_cell_count()), p);
+  SPREKK_ASSERT(is_ascending(ridge.cells), p);
+  const bool is_end = ridge.kind == Kind::tip || ridge.kind == Kind::on_boundary;
+  SPREKK_ASSERT(ridge.cells.size() == (is_end ? 1U : 2U), p, ridge.cells.size());
+  SPREKK_ASSERT((ridge.side != none) == (ridge.kind == Kind::on_boundary), p, ridge.side);
 }
 
 }  // namespace
@@ -111,11 +113,11 @@ void expect_sound(const Mesh& mesh) {
   }
   SPREKK_ASSERT(next == mesh.fracture_cell_count(), next, mesh.fracture_cell_count());
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) expect_sound_fracture_cell(mesh, i);
-  for (int p = 0; p < static_cast<int>(mesh.fracture_points.size()); ++p) expect_sound_fracture_point(mesh, p);
+  for (int p = 0; p < static_cast<int>(mesh.ridges.size()); ++p) expect_sound_ridge(mesh, p);
   for (const Junction& junction : mesh.junctions) {
     SPREKK_ASSERT(junction.cells.size() >= 2, junction.cells.size());
     SPREKK_ASSERT(are_indices(junction.cells, mesh.fracture_cell_count()));
-    SPREKK_ASSERT(are_indices(junction.points, static_cast<long>(mesh.fracture_points.size())));
+    SPREKK_ASSERT(are_indices(junction.ridges, static_cast<long>(mesh.ridges.size())));
   }
 }
 

@@ -1,5 +1,5 @@
-// The conforming mixed-dimensional mesh: the triangles and quadrilaterals of the matrix, the line cells of the
-// fractures that lie on its faces, and the two walls of every fracture cell.
+// The conforming mixed-dimensional mesh: the cells of the matrix, the cells of the fractures that lie on its faces, and
+// the two walls of every fracture cell.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "framework/mesh/adjacency.hpp"
-#include "framework/mesh/ring.hpp"
+#include "framework/mesh/shapes.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {
@@ -18,18 +18,18 @@ inline constexpr int none = -1;
 /// The two sides of a fracture, as seen by its normal, which points from `plus` to `minus` (sec. 2.2 of the paper).
 enum class Wall { plus = 0, minus = 1 };
 
-/// One cell of a fracture grid. The matrix is split along the cell, which has two matrix faces with equal end points.
+/// One cell of a fracture grid. The matrix is split along the cell, which has two matrix faces with equal corners.
 struct FractureCell {
   int fracture;              ///< index into Mesh::fractures
   std::array<int, 2> faces;  ///< the matrix faces that are its walls, by Wall; each has one cell, face_cells[f][0]
-  /// The ends of the cell along the direction of the polyline, as indices into Mesh::fracture_points. An end at a
-  /// junction is the point between this cell and the next cell of its fracture; where the fracture ends at the
-  /// junction, the first point there that belongs to this cell.
-  std::array<int, 2> points;
+  /// What is around the cell, as indices into Mesh::ridges: in a plane its ends along the direction of the polyline, in
+  /// space its edges, in their order around it. At a junction it is the ridge between this cell and its neighbour in
+  /// its fracture; where the fracture ends at the junction, the first ridge there that belongs to this cell.
+  FaceRidges ridges;
   Point center;
   double measure;  ///< length, m (area in three dimensions, m^2)
   Point normal;    ///< unit, from the plus to the minus side
-  /// Unit; (normal, tangents) is a right-handed frame. In a plane from points[0] to points[1]: (-n_y, n_x).
+  /// Unit; (normal, tangents) is a right-handed frame, see tangents_of. In a plane from ridges[0] to ridges[1].
   Tangents tangents;
   bool grown = false;  ///< whether the cell has grown during the run
 
@@ -56,28 +56,29 @@ struct FractureCell {
   }
 };
 
-/// A point between two fracture cells, or an end of a fracture.
-struct FracturePoint {
+/// What lies between two fracture cells, or ends a fracture: a point in a plane, an edge in space.
+struct Ridge {
   /// inside: between neighbours in a fracture; tip: an end in the rock; on_boundary: an end on the outer boundary;
   /// junction: between two of the cells that meet where fractures touch or cross.
   enum class Kind { inside, tip, on_boundary, junction };
-  Point position;
+  Point center;
+  double measure;          ///< length, m; 1 for a point
   std::vector<int> cells;  ///< one for tip and on_boundary, else two, in ascending order
   Kind kind;
   int side;  ///< the boundary side (index into Mesh::side_names) for on_boundary, else none
 };
 
-/// A place where fractures touch or cross. A junction has a fracture point for each pair of its cells, so that each
-/// flux from one cell to another belongs to one point.
+/// A place where fractures touch or cross. It has a ridge for each pair of its cells, so that each flux from one cell
+/// to another belongs to one ridge; all of them are at the same place.
 struct Junction {
   std::vector<int> cells;   ///< the fracture cells that meet here, in ascending order; at least two
-  std::vector<int> points;  ///< indices into Mesh::fracture_points
+  std::vector<int> ridges;  ///< indices into Mesh::ridges
 };
 
-/// A fracture: a polyline of fracture cells with consecutive numbers.
+/// A fracture: fracture cells with consecutive numbers, in a plane those of a polyline.
 struct Fracture {
   std::string name;
-  int first_cell;  ///< its cells are first_cell … first_cell + cell_count - 1, along the polyline
+  int first_cell;  ///< its cells are first_cell … first_cell + cell_count - 1; in a plane along the polyline
   int cell_count;
 };
 
@@ -85,15 +86,15 @@ struct Fracture {
 struct Mesh {
   // Matrix. Nodes, faces and cells are numbered from 0; nodes on fractures exist once per side (tips exist once).
   std::vector<Point> nodes;
-  std::vector<Ring> cell_nodes;                ///< counter-clockwise; three corners, or four of a convex quadrilateral
-  std::vector<Ring> cell_faces;                ///< face k of a cell joins its node k and the one after it
-  std::vector<std::array<int, 2>> face_nodes;  ///< counter-clockwise as seen from face_cells[f][0]
+  std::vector<CellNodes> cell_nodes;           ///< the corners, in the order of the shape (see Shape)
+  std::vector<CellFaces> cell_faces;           ///< in the order of the shape
+  std::vector<FaceNodes> face_nodes;           ///< as the shape of face_cells[f][0] has them
   std::vector<std::array<int, 2>> face_cells;  ///< [1] is none on the outer boundary and on walls
   std::vector<Point> cell_center;              ///< the centre of gravity
   std::vector<double> cell_measure;            ///< areas, m^2 (volumes in three dimensions, m^3)
   std::vector<Point> face_center;
-  std::vector<double> face_measure;  ///< lengths, m (areas in three dimensions, m^2)
-  std::vector<Point> face_normal;    ///< unit, out of face_cells[f][0]
+  std::vector<double> face_measure;  ///< lengths, m (of area vectors in three dimensions, m^2)
+  std::vector<Point> face_normal;    ///< unit, out of face_cells[f][0]; times the measure, the area vector
   Adjacency node_cells;              ///< the cells at a node, in ascending order
   Adjacency node_faces;              ///< the faces at a node, in ascending order
 
@@ -105,7 +106,7 @@ struct Mesh {
   // Fractures.
   std::vector<Fracture> fractures;
   std::vector<FractureCell> fracture_cells;
-  std::vector<FracturePoint> fracture_points;
+  std::vector<Ridge> ridges;
   std::vector<Junction> junctions;
   std::vector<int> face_fracture_cell;  ///< the fracture cell whose wall the face is, or none
 

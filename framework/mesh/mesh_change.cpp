@@ -28,7 +28,7 @@ MeshChange no_change(const Mesh& mesh) {
   change.cell = itself(mesh.cell_count());
   change.face = itself(mesh.face_count());
   change.fracture_cell = itself(mesh.fracture_cell_count());
-  change.fracture_point = itself(mesh.fracture_points.size());
+  change.ridge = itself(mesh.ridges.size());
   return change;
 }
 

@@ -22,9 +22,9 @@ struct MeshChange {
   std::vector<int> cell;
   /// Per new face: the old face with the same end points (and on a wall: on the same side of the same fracture cell).
   std::vector<int> face;
-  std::vector<int> fracture_cell;   ///< per new fracture cell: the same old cell; none where the fracture has grown
-                                    ///< or cells have been replaced
-  std::vector<int> fracture_point;  ///< per new fracture point: the same old point
+  std::vector<int> fracture_cell;  ///< per new fracture cell: the same old cell; none where the fracture has grown
+                                   ///< or cells have been replaced
+  std::vector<int> ridge;          ///< per new fracture point: the same old point
   /// New cells x old cells: the area of their intersection, m^2; for kept cells their area on the one entry. Rows sum
   /// to the new cells' areas, columns to the old cells' (to rounding). Eq. 17 of the paper divides the rows by their
   /// sums.

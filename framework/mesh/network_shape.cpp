@@ -11,9 +11,7 @@ namespace {
 /// The direction from a junction along a cell that ends there.
 Point away_from(const FractureCell& cell, const Point& junction) { return (cell.center - junction).normalized(); }
 
-Point place_of(const Mesh& mesh, const Junction& junction) {
-  return mesh.fracture_points[junction.points.front()].position;
-}
+Point place_of(const Mesh& mesh, const Junction& junction) { return mesh.ridges[junction.ridges.front()].center; }
 
 Pocket pocket_from(const Mesh& mesh, int start, std::vector<char>& is_seen, bool& is_open) {
   Pocket pocket{0, 0, Point::Zero(), {}};

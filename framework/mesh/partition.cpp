@@ -24,7 +24,8 @@ void bisect(Mesh& mesh, std::span<int> cells, int first, int last, const Share& 
     low = low.cwiseMin(mesh.cell_center[cell]);
     high = high.cwiseMax(mesh.cell_center[cell]);
   }
-  const int axis = (high - low).x() >= (high - low).y() ? 0 : 1;
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
   const int middle = (first + last) / 2;
   const auto cut = cells.begin() + (share(middle) - share(first));
   SPREKK_ASSERT(cut >= cells.begin() && cut <= cells.end(), first, middle, last);

@@ -35,19 +35,17 @@ Mesh separated_mesh(const Mesh& mesh, const std::vector<char>& inside) {
       for (int& node : cut.face_nodes[face]) node = copy[node];
     if (first == second) continue;
     const int outside = first ? other : cell;
-    // Counter-clockwise as seen from either cell: the nodes of the one that is not inside in the reverse order.
-    std::array<int, 2> nodes = mesh.face_nodes[face];
-    Point normal = mesh.face_normal[face];
-    if (!first) {
-      std::swap(nodes[0], nodes[1]);
-      normal = -normal;
-    }
+    // As either cell has it: for the one that is not inside in the reverse order.
+    const FaceNodes nodes = first ? mesh.face_nodes[face] : reversed(mesh.face_nodes[face]);
+    const Point normal = first ? mesh.face_normal[face] : Point(-mesh.face_normal[face]);
+    FaceNodes copies = reversed(nodes);
+    for (int& node : copies) node = copy[node];
     cut.face_nodes[face] = nodes;
     cut.face_normal[face] = normal;
     cut.face_cells[face] = {first ? cell : other, none};
     for (int& of_cell : cut.cell_faces[outside])
       if (of_cell == face) of_cell = cut.face_count();
-    cut.face_nodes.push_back({copy[nodes[1]], copy[nodes[0]]});
+    cut.face_nodes.push_back(copies);
     cut.face_normal.push_back(-normal);
     cut.face_cells.push_back({outside, none});
     cut.face_center.push_back(mesh.face_center[face]);

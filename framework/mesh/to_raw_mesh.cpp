@@ -1,4 +1,4 @@
-// From a mesh back to the plane mesh that it was built from.
+// From a mesh back to the one that it was built from.
 #include <algorithm>
 #include <numeric>
 
@@ -19,9 +19,9 @@ RawMesh to_raw_mesh(const Mesh& mesh, std::vector<int>* merged) {
     root[std::max(a, b)] = std::min(a, b);
   };
   for (const FractureCell& cell : mesh.fracture_cells) {
-    const auto &plus = mesh.face_nodes[cell.faces[0]], &minus = mesh.face_nodes[cell.faces[1]];
-    tie(plus[0], minus[1]);
-    tie(plus[1], minus[0]);
+    const FaceNodes &plus = mesh.face_nodes[cell.faces[0]], &minus = mesh.face_nodes[cell.faces[1]];
+    for (const int node : plus)
+      tie(node, *std::ranges::find_if(minus, [&](int other) { return mesh.nodes[other] == mesh.nodes[node]; }));
   }
 
   RawMesh raw;
@@ -34,8 +34,12 @@ RawMesh to_raw_mesh(const Mesh& mesh, std::vector<int>* merged) {
       number[node] = number[find(node)];  // the root has the smaller index
     }
   }
+  const auto renumbered = [&](FaceNodes nodes) {
+    for (int& node : nodes) node = number[node];
+    return nodes;
+  };
   raw.cells = mesh.cell_nodes;
-  for (Ring& cell : raw.cells) {
+  for (CellNodes& cell : raw.cells) {
     for (int& node : cell) node = number[node];
   }
   raw.regions = mesh.cell_region;
@@ -43,18 +47,13 @@ RawMesh to_raw_mesh(const Mesh& mesh, std::vector<int>* merged) {
   raw.side_names = mesh.side_names;
   for (int face = 0; face < mesh.face_count(); ++face) {
     if (mesh.face_side[face] == none) continue;
-    raw.boundary_edges.push_back(
-        {{number[mesh.face_nodes[face][0]], number[mesh.face_nodes[face][1]]}, mesh.face_side[face]});
+    raw.boundary_faces.push_back({renumbered(mesh.face_nodes[face]), mesh.face_side[face]});
   }
   for (const Fracture& fracture : mesh.fractures) {
-    RawMesh::Chain chain{fracture.name, {}};
-    for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
-      // The plus wall runs along the chain.
-      const auto& plus = mesh.face_nodes[mesh.fracture_cells[i].faces[0]];
-      if (chain.nodes.empty()) chain.nodes.push_back(number[plus[0]]);
-      chain.nodes.push_back(number[plus[1]]);
-    }
-    raw.fractures.push_back(std::move(chain));
+    std::vector<FaceNodes> faces;
+    for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i)
+      faces.push_back(renumbered(mesh.face_nodes[mesh.fracture_cells[i].faces[0]]));
+    raw.fractures.push_back(fracture_with(fracture.name, faces));
   }
   if (merged) *merged = std::move(number);
   return raw;

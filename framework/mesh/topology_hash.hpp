@@ -24,10 +24,12 @@ class TopologyHash {
 /// Of the cells with their corners and of the fractures; neither places nor processes matter.
 inline std::uint64_t topology_hash(const Mesh& mesh) {
   TopologyHash hash;
-  for (const Ring& corners : mesh.cell_nodes)
+  for (const CellNodes& corners : mesh.cell_nodes)
     for (const int node : corners) hash.add(node);
-  for (const FractureCell& cell : mesh.fracture_cells)
-    for (const int number : {cell.fracture, cell.points[0], cell.points[1]}) hash.add(number);
+  for (const FractureCell& cell : mesh.fracture_cells) {
+    hash.add(cell.fracture);
+    for (const int ridge : cell.ridges) hash.add(ridge);
+  }
   return hash.value();
 }
 

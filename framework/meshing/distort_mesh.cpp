@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/face_table.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
 
 namespace sprekk {
 namespace {
@@ -17,7 +17,7 @@ constexpr int most_halvings = 6;
 
 double area(const RawMesh& mesh, int cell) { return smallest_corner_area(mesh.nodes, mesh.cells[cell]); }
 
-std::vector<bool> fixed_nodes(const RawMesh& mesh, const CellEdges& edges) {
+std::vector<bool> fixed_nodes(const RawMesh& mesh, const FaceTable& edges) {
   std::vector<bool> is_fixed(mesh.nodes.size(), false);
   for (int edge = 0; edge < edges.size(); ++edge) {
     const auto [one, other] = edges.cells(edge);
@@ -37,7 +37,7 @@ void distort_mesh(RawMesh& mesh, double amount, int seed) {
   for (Ring& cell : mesh.cells) {
     if (signed_area(mesh.nodes, cell) < 0) cell.turn();
   }
-  const CellEdges edges(mesh.nodes, mesh.cells);
+  const FaceTable edges(mesh.nodes, mesh.cells);
   const auto is_fixed = fixed_nodes(mesh, edges);
   std::vector<double> shortest(mesh.nodes.size(), std::numeric_limits<double>::infinity());
   for (int edge = 0; edge < edges.size(); ++edge) {

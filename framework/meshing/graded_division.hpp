@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 

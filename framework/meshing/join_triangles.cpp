@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/face_table.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
 
 namespace sprekk {
 namespace {
@@ -20,7 +20,7 @@ struct Pair {
 };
 
 /// The quadrilateral of the two triangles at an edge, counter-clockwise.
-Ring around(const RawMesh& mesh, const CellEdges& edges, int edge) {
+Ring around(const RawMesh& mesh, const FaceTable& edges, int edge) {
   const auto [a, c] = edges.nodes(edge);
   const auto opposite = [&](int triangle) {
     const Ring& corners = mesh.cells[triangle];
@@ -30,11 +30,11 @@ Ring around(const RawMesh& mesh, const CellEdges& edges, int edge) {
   return {a, opposite(other), c, opposite(one)};
 }
 
-std::vector<Pair> candidates(const RawMesh& mesh, const CellEdges& edges) {
+std::vector<Pair> candidates(const RawMesh& mesh, const FaceTable& edges) {
   std::vector<bool> is_fixed(edges.size()), is_end(mesh.nodes.size());
   for (const auto& [name, chain] : mesh.fractures) {
     is_end[chain.front()] = is_end[chain.back()] = true;
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) is_fixed[edges.find(chain[i], chain[i + 1])] = true;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) is_fixed[edges.find({chain[i], chain[i + 1]})] = true;
   }
   std::vector<Pair> pairs;
   for (int edge = 0; edge < edges.size(); ++edge) {
@@ -59,7 +59,7 @@ void join_triangles(RawMesh& mesh) {
   for (Ring& cell : mesh.cells) {
     if (signed_area(mesh.nodes, cell) < 0) cell.turn();
   }
-  const CellEdges edges(mesh.nodes, mesh.cells);
+  const FaceTable edges(mesh.nodes, mesh.cells);
   std::vector<bool> is_joined(mesh.cells.size()), is_gone(mesh.cells.size());
   for (const auto& [deviation, edge, corners] : candidates(mesh, edges)) {
     const auto [one, other] = edges.cells(edge);

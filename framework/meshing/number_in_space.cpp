@@ -33,7 +33,7 @@ void number_in_space(RawMesh& mesh, const std::vector<Point>& places) {
   for (std::size_t i = 0; i < nodes.size(); ++i) number[nodes[i]] = static_cast<int>(i);
   for (Ring& cell : mesh.cells)
     for (int& node : cell) node = number[node];
-  for (auto& edge : mesh.boundary_edges)
+  for (auto& edge : mesh.boundary_faces)
     for (int& node : edge.nodes) node = number[node];
   for (auto& fracture : mesh.fractures)
     for (int& node : fracture.nodes) node = number[node];

@@ -8,12 +8,12 @@
 #include <set>
 #include <sstream>
 
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/cell_shape.hpp"
-#include "framework/mesh/counter_clockwise.hpp"
+#include "framework/mesh/face_table.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/oriented_cells.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/conforming/curve_group.hpp"
 #include "framework/meshing/conforming/glue_cuts.hpp"
 #include "framework/meshing/conforming/require_conforming.hpp"
@@ -178,7 +178,7 @@ class MshReader {
       Ring ring(node(cell, 0), node(cell, 1), node(cell, 2));
       if (cell.node_count == 4) ring = Ring(ring[0], ring[1], ring[2], node(cell, 3));
       try {
-        require_area(mesh_.nodes, ring);
+        require_sound_cell(mesh_.nodes, ring);
       } catch (const InputError& error) {
         fail(cell.place, error.what());
       }
@@ -217,7 +217,7 @@ class MshReader {
 
   void refuse_overlapping_cells() const {
     try {
-      const CellEdges edges(mesh_.nodes, mesh_.cells);
+      const FaceTable edges(mesh_.nodes, mesh_.cells);
     } catch (const InputError&) {
       refuse_doubled_cells();
       throw;
@@ -228,12 +228,12 @@ class MshReader {
     refuse_overlapping_cells();
     std::vector<CurveGroup> groups = curve_groups();
     glue_cuts(mesh_, groups);
-    const CellEdges edges(mesh_.nodes, mesh_.cells);
+    const FaceTable edges(mesh_.nodes, mesh_.cells);
     std::vector<bool> has_side(edges.size(), false);
     for (const CurveGroup& group : groups) {
       std::size_t outer = 0;
       for (const auto& [a, b] : group.lines) {
-        const int edge = edges.find(a, b);
+        const int edge = edges.find({a, b});
         if (edge == none) {
           throw InputError("curve '" + group.name + "' leaves the edges of the cells near " + to_text(mesh_.nodes[a]) +
                            " (the mesh does not conform to it)");
@@ -241,7 +241,7 @@ class MshReader {
         if (!edges.is_outer(edge)) continue;
         ++outer;
         has_side[edge] = true;
-        mesh_.boundary_edges.push_back({{a, b}, static_cast<int>(mesh_.side_names.size())});
+        mesh_.boundary_faces.push_back({{a, b}, static_cast<int>(mesh_.side_names.size())});
       }
       if (outer == group.lines.size()) {
         add_name(group.name, "sides", mesh_.side_names);
@@ -263,7 +263,7 @@ class MshReader {
     mesh_.fractures.push_back({group.name, Path(group).nodes()});
   }
 
-  void add_unnamed_sides(const CellEdges& edges, const std::vector<bool>& has_side) {
+  void add_unnamed_sides(const FaceTable& edges, const std::vector<bool>& has_side) {
     int side = none;
     for (int edge = 0; edge < edges.size(); ++edge) {
       if (!edges.is_outer(edge) || has_side[edge]) continue;
@@ -271,7 +271,7 @@ class MshReader {
         side = static_cast<int>(mesh_.side_names.size());
         add_name("boundary", "sides", mesh_.side_names);
       }
-      mesh_.boundary_edges.push_back({edges.nodes(edge), side});
+      mesh_.boundary_faces.push_back({edges.nodes(edge), side});
     }
   }
 

@@ -1,8 +1,8 @@
 #include "framework/meshing/regions.hpp"
 
-#include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/medium.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 

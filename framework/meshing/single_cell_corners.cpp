@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numbers>
 
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/face_table.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {
@@ -43,7 +43,7 @@ class Pass {
     for (int edge = 0; edge < edges_.size(); ++edge) is_barrier_[edge] = edges_.is_outer(edge);
     for (const auto& [name, chain] : mesh.fractures) {
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        const int edge = edges_.find(chain[i], chain[i + 1]);
+        const int edge = edges_.find({chain[i], chain[i + 1]});
         if (edge != none) is_barrier_[edge] = true;
       }
     }
@@ -157,7 +157,7 @@ class Pass {
   }
 
   RawMesh& mesh_;
-  const CellEdges edges_;
+  const FaceTable edges_;
   std::vector<bool> is_barrier_;  ///< per edge: outer or fracture
   std::vector<bool> is_stale_;    ///< per cell: changed in this pass
 };

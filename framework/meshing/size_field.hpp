@@ -1,7 +1,7 @@
 // The wanted edge length of a mesh, as a function of place.
 #pragma once
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/geometry.hpp"
 #include "framework/meshing/size_sources.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/regions.hpp"
 
 namespace sprekk {
@@ -137,12 +137,12 @@ RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options) {
   }
   mesh.side_names.assign(box_sides.begin(), box_sides.end());
   for (int j = 0; j < ny; ++j) {
-    mesh.boundary_edges.push_back({{grid.node(0, j + 1), grid.node(0, j)}, 0});
-    mesh.boundary_edges.push_back({{grid.node(nx, j), grid.node(nx, j + 1)}, 1});
+    mesh.boundary_faces.push_back({{grid.node(0, j + 1), grid.node(0, j)}, 0});
+    mesh.boundary_faces.push_back({{grid.node(nx, j), grid.node(nx, j + 1)}, 1});
   }
   for (int i = 0; i < nx; ++i) {
-    mesh.boundary_edges.push_back({{grid.node(i, 0), grid.node(i + 1, 0)}, 2});
-    mesh.boundary_edges.push_back({{grid.node(i + 1, ny), grid.node(i, ny)}, 3});
+    mesh.boundary_faces.push_back({{grid.node(i, 0), grid.node(i + 1, 0)}, 2});
+    mesh.boundary_faces.push_back({{grid.node(i + 1, ny), grid.node(i, ny)}, 3});
   }
   for (const FractureGeometry& fracture : geometry.fractures) mesh.fractures.push_back(*follow(grid, fracture));
   assign_regions(geometry, mesh);

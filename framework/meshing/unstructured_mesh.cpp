@@ -6,7 +6,7 @@
 #include <map>
 
 #include "framework/config/input_error.hpp"
-#include "framework/mesh/cell_edges.hpp"
+#include "framework/mesh/face_table.hpp"
 #include "framework/meshing/arrangement.hpp"
 #include "framework/meshing/gmsh_module/gmsh_module.hpp"
 #include "framework/meshing/join_triangles.hpp"
@@ -106,11 +106,11 @@ RawMesh raw_mesh(const Geometry& geometry, const Arrangement& arrangement, const
   for (int s = 0; s < box_segments; ++s) {
     const auto nodes = lines.nodes_along(s, made);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      mesh.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, side_of_segment[s]});
+      mesh.boundary_faces.push_back({{nodes[i], nodes[i + 1]}, side_of_segment[s]});
     }
   }
   // Nodes at given points get the exact positions of these points again, without the rounding of the frame.
-  for (const auto& [nodes, side] : mesh.boundary_edges) {
+  for (const auto& [nodes, side] : mesh.boundary_faces) {
     const int axis = side / 2;
     for (const int node : nodes) {
       mesh.nodes[node][axis] = side % 2 == 0 ? geometry.box.low[axis] : geometry.box.high[axis];
@@ -133,7 +133,7 @@ RawMesh raw_mesh(const Geometry& geometry, const Arrangement& arrangement, const
 /// across a box.
 void refuse_folds(const Geometry& geometry, const SizeField& sizes, const RawMesh& mesh) {
   try {
-    const CellEdges edges(mesh.nodes, mesh.cells);
+    const FaceTable edges(mesh.nodes, mesh.cells);
   } catch (const InputError& error) {
     char figures[128];
     std::snprintf(figures, sizeof figures, "edges of %.3g m in a box of %.3g m", sizes.smallest(),

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "framework/mesh/medium.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/search/segment_tree.hpp"
 #include "framework/meshing/distinct_text.hpp"
 #include "framework/meshing/size_field.hpp"

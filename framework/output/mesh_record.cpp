@@ -47,7 +47,8 @@ void write_adjacency(Hdf5Writer& file, const std::string& path, const Adjacency&
   file.integers(path + "/items", adjacency.items);
 }
 
-void append(Adjacency& adjacency, const std::vector<int>& items) {
+template <class List>
+void append(Adjacency& adjacency, const List& items) {
   adjacency.items.insert(adjacency.items.end(), items.begin(), items.end());
   adjacency.offsets.push_back(static_cast<int>(adjacency.items.size()));
 }
@@ -66,25 +67,39 @@ Adjacency read_adjacency(const Hdf5Reader& file, const std::string& path) {
   return adjacency;
 }
 
-void write_rings(Hdf5Writer& file, const std::string& path, const std::vector<Ring>& rings) {
+template <class List>
+void write_lists(Hdf5Writer& file, const std::string& path, const std::vector<List>& lists) {
   Adjacency flat;
-  for (const Ring& ring : rings) {
-    flat.items.insert(flat.items.end(), ring.begin(), ring.end());
-    flat.offsets.push_back(static_cast<int>(flat.items.size()));
-  }
+  for (const List& list : lists) append(flat, list);
   write_adjacency(file, path, flat);
 }
 
-std::vector<Ring> read_rings(const Hdf5Reader& file, const std::string& path) {
+template <std::size_t n>
+bool assign(std::array<int, n>& list, std::span<const int> items) {
+  if (items.size() == n) std::ranges::copy(items, list.begin());
+  return items.size() == n;
+}
+
+[[maybe_unused]] bool assign(Ring& ring, std::span<const int> items) {
+  if (items.size() == 3) ring = Ring(items[0], items[1], items[2]);
+  if (items.size() == 4) ring = Ring(items[0], items[1], items[2], items[3]);
+  return items.size() == 3 || items.size() == 4;
+}
+
+template <int capacity>
+bool assign(ShortList<capacity>& list, std::span<const int> items) {
+  if (items.size() > capacity) return false;
+  for (const int item : items) list.push_back(item);
+  return true;
+}
+
+template <class List>
+std::vector<List> read_lists_of(const Hdf5Reader& file, const std::string& path) {
   const Adjacency flat = read_adjacency(file, path);
-  std::vector<Ring> rings;
-  for (int i = 0; i < flat.size(); ++i) {
-    const auto items = flat[i];
-    if (items.size() != 3 && items.size() != 4) throw Hdf5Error("array " + path + " contradicts itself");
-    rings.push_back(items.size() == 3 ? Ring(items[0], items[1], items[2])
-                                      : Ring(items[0], items[1], items[2], items[3]));
-  }
-  return rings;
+  std::vector<List> lists(flat.size());
+  for (int i = 0; i < flat.size(); ++i)
+    if (!assign(lists[i], flat[i])) throw Hdf5Error("array " + path + " contradicts itself");
+  return lists;
 }
 
 void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
@@ -100,9 +115,11 @@ void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
   std::vector<int> topology;
   std::vector<double> geometry;
   std::vector<int> grown;
+  Adjacency ridges;
   for (const FractureCell& cell : mesh.fracture_cells) {
     grown.push_back(cell.grown);
-    topology.insert(topology.end(), {cell.fracture, cell.faces[0], cell.faces[1], cell.points[0], cell.points[1]});
+    topology.insert(topology.end(), {cell.fracture, cell.faces[0], cell.faces[1]});
+    append(ridges, cell.ridges);
     append(geometry, cell.center);
     geometry.push_back(cell.measure);
     append(geometry, cell.normal);
@@ -111,26 +128,29 @@ void write_fractures(Hdf5Writer& file, const Mesh& mesh) {
   file.integers("mesh/fracture_cells/topology", topology);
   file.doubles("mesh/fracture_cells/geometry", geometry);
   file.integers("mesh/fracture_cells/grown", grown);
+  write_adjacency(file, "mesh/fracture_cells/ridges", ridges);
 
-  std::vector<double> positions;
+  std::vector<double> centers, measures;
   std::vector<int> kinds;
   Adjacency cells;
-  for (const FracturePoint& point : mesh.fracture_points) {
-    append(positions, point.position);
-    kinds.insert(kinds.end(), {static_cast<int>(point.kind), point.side});
-    append(cells, point.cells);
+  for (const Ridge& ridge : mesh.ridges) {
+    append(centers, ridge.center);
+    measures.push_back(ridge.measure);
+    kinds.insert(kinds.end(), {static_cast<int>(ridge.kind), ridge.side});
+    append(cells, ridge.cells);
   }
-  file.doubles("mesh/fracture_points/positions", positions);
-  file.integers("mesh/fracture_points/kinds", kinds);
-  write_adjacency(file, "mesh/fracture_points/cells", cells);
+  file.doubles("mesh/ridges/centers", centers);
+  file.doubles("mesh/ridges/measures", measures);
+  file.integers("mesh/ridges/kinds", kinds);
+  write_adjacency(file, "mesh/ridges/cells", cells);
 
-  Adjacency junction_cells, junction_points;
+  Adjacency junction_cells, junction_ridges;
   for (const Junction& junction : mesh.junctions) {
     append(junction_cells, junction.cells);
-    append(junction_points, junction.points);
+    append(junction_ridges, junction.ridges);
   }
   write_adjacency(file, "mesh/junctions/cells", junction_cells);
-  write_adjacency(file, "mesh/junctions/points", junction_points);
+  write_adjacency(file, "mesh/junctions/ridges", junction_ridges);
 }
 
 void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
@@ -139,21 +159,22 @@ void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
   if (names.size() != ranges.size()) throw Hdf5Error("array mesh/fractures/ranges has a wrong length");
   for (std::size_t i = 0; i < names.size(); ++i) mesh.fractures.push_back({names[i], ranges[i][0], ranges[i][1]});
 
-  const auto topology = read_lists<5>(file, "mesh/fracture_cells/topology");
+  const auto topology = read_lists<3>(file, "mesh/fracture_cells/topology");
   const std::string geometry_path = "mesh/fracture_cells/geometry";
   // Centre, length, normal and tangents, as they are written.
   constexpr int normal_at = dimension + 1, tangents_at = normal_at + dimension;
   constexpr int numbers = tangents_at + dimension * (dimension - 1);
   const auto geometry = grouped<std::array<double, numbers>>(file.doubles(geometry_path), geometry_path);
   const std::vector<int> grown = file.integers("mesh/fracture_cells/grown");
-  if (topology.size() != geometry.size() || topology.size() != grown.size())
+  const auto around = read_lists_of<FaceRidges>(file, "mesh/fracture_cells/ridges");
+  if (topology.size() != geometry.size() || topology.size() != grown.size() || topology.size() != around.size())
     throw Hdf5Error("array " + geometry_path + " has a wrong length");
   for (std::size_t i = 0; i < topology.size(); ++i) {
     const auto& t = topology[i];
     const auto& g = geometry[i];
     mesh.fracture_cells.push_back({t[0],
                                    {t[1], t[2]},
-                                   {t[3], t[4]},
+                                   around[i],
                                    Point(g.data()),
                                    g[dimension],
                                    Point(g.data() + normal_at),
@@ -161,22 +182,27 @@ void read_fractures(const Hdf5Reader& file, Mesh& mesh) {
                                    grown[i] != 0});
   }
 
-  const auto positions = read_points(file, "mesh/fracture_points/positions");
-  const auto kinds = read_lists<2>(file, "mesh/fracture_points/kinds");
-  const Adjacency cells = read_adjacency(file, "mesh/fracture_points/cells");
-  if (kinds.size() != positions.size() || cells.size() != static_cast<int>(positions.size()))
-    throw Hdf5Error("array mesh/fracture_points/kinds has a wrong length");
+  const auto centers = read_points(file, "mesh/ridges/centers");
+  const std::vector<double> measures = file.doubles("mesh/ridges/measures");
+  const auto kinds = read_lists<2>(file, "mesh/ridges/kinds");
+  const Adjacency cells = read_adjacency(file, "mesh/ridges/cells");
+  if (kinds.size() != centers.size() || measures.size() != centers.size() ||
+      cells.size() != static_cast<int>(centers.size()))
+    throw Hdf5Error("array mesh/ridges/kinds has a wrong length");
   for (int i = 0; i < cells.size(); ++i)
-    mesh.fracture_points.push_back(
-        {positions[i], {cells[i].begin(), cells[i].end()}, static_cast<FracturePoint::Kind>(kinds[i][0]), kinds[i][1]});
+    mesh.ridges.push_back({centers[i],
+                           measures[i],
+                           {cells[i].begin(), cells[i].end()},
+                           static_cast<Ridge::Kind>(kinds[i][0]),
+                           kinds[i][1]});
 
   const Adjacency junction_cells = read_adjacency(file, "mesh/junctions/cells");
-  const Adjacency junction_points = read_adjacency(file, "mesh/junctions/points");
-  if (junction_cells.size() != junction_points.size())
-    throw Hdf5Error("array mesh/junctions/points has a wrong length");
+  const Adjacency junction_ridges = read_adjacency(file, "mesh/junctions/ridges");
+  if (junction_cells.size() != junction_ridges.size())
+    throw Hdf5Error("array mesh/junctions/ridges has a wrong length");
   for (int i = 0; i < junction_cells.size(); ++i)
     mesh.junctions.push_back(
-        {{junction_cells[i].begin(), junction_cells[i].end()}, {junction_points[i].begin(), junction_points[i].end()}});
+        {{junction_cells[i].begin(), junction_cells[i].end()}, {junction_ridges[i].begin(), junction_ridges[i].end()}});
 }
 
 void require_consistent(const Mesh& mesh) {
@@ -194,9 +220,9 @@ void require_consistent(const Mesh& mesh) {
 
 void write_mesh(Hdf5Writer& file, const Mesh& mesh) {
   file.doubles("mesh/nodes", values(mesh.nodes));
-  write_rings(file, "mesh/cell_nodes", mesh.cell_nodes);
-  write_rings(file, "mesh/cell_faces", mesh.cell_faces);
-  file.integers("mesh/face_nodes", values(mesh.face_nodes));
+  write_lists(file, "mesh/cell_nodes", mesh.cell_nodes);
+  write_lists(file, "mesh/cell_faces", mesh.cell_faces);
+  write_lists(file, "mesh/face_nodes", mesh.face_nodes);
   file.integers("mesh/face_cells", values(mesh.face_cells));
   file.doubles("mesh/cell_center", values(mesh.cell_center));
   file.doubles("mesh/cell_area", mesh.cell_measure);
@@ -218,9 +244,9 @@ Mesh read_mesh(const Hdf5Reader& file) {
   Mesh mesh;
   mesh.version = next_mesh_version();
   mesh.nodes = read_points(file, "mesh/nodes");
-  mesh.cell_nodes = read_rings(file, "mesh/cell_nodes");
-  mesh.cell_faces = read_rings(file, "mesh/cell_faces");
-  mesh.face_nodes = read_lists<2>(file, "mesh/face_nodes");
+  mesh.cell_nodes = read_lists_of<CellNodes>(file, "mesh/cell_nodes");
+  mesh.cell_faces = read_lists_of<CellFaces>(file, "mesh/cell_faces");
+  mesh.face_nodes = read_lists_of<FaceNodes>(file, "mesh/face_nodes");
   mesh.face_cells = read_lists<2>(file, "mesh/face_cells");
   mesh.cell_center = read_points(file, "mesh/cell_center");
   mesh.cell_measure = file.doubles("mesh/cell_area");
@@ -242,7 +268,7 @@ Mesh read_mesh(const Hdf5Reader& file) {
 
 bool is_same_mesh(const Mesh& a, const Mesh& b) {
   const auto is_same_cell = [](const FractureCell& x, const FractureCell& y) {
-    return x.fracture == y.fracture && x.faces == y.faces && x.points == y.points;
+    return x.fracture == y.fracture && x.faces == y.faces && x.ridges == y.ridges;
   };
   return a.nodes == b.nodes && a.cell_nodes == b.cell_nodes && a.face_nodes == b.face_nodes &&
          std::equal(a.fracture_cells.begin(), a.fracture_cells.end(), b.fracture_cells.begin(), b.fracture_cells.end(),

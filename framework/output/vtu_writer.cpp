@@ -60,6 +60,29 @@ void add_on_fracture_cells(GridData& grid, const OutputField& field) {
   }
 }
 
+/// In a plane the ridges are the points; in space the nodes of the plus sides.
+void add_fracture_cells(GridData& grid, const Mesh& mesh) {
+  grid.cell_dimension = dimension - 1;
+  if (dimension == 2) {
+    for (const Ridge& ridge : mesh.ridges) add_point(grid, ridge.center);
+    for (const FractureCell& cell : mesh.fracture_cells) add_cell(grid, cell.ridges);
+    return;
+  }
+  std::vector<int> number(mesh.node_count(), none);
+  for (const FractureCell& cell : mesh.fracture_cells) {
+    FaceNodes nodes = mesh.face_nodes[cell.faces[0]];
+    for (int& node : nodes) {
+      int& point = number[node];
+      if (point == none) {
+        point = grid.point_count();
+        add_point(grid, mesh.nodes[node]);
+      }
+      node = point;
+    }
+    add_cell(grid, nodes);
+  }
+}
+
 void require_size(const OutputField& field, const Mesh& mesh) {
   if (field.location == Location::listed) return;  // has no place in a picture
   if (field.values.size() != static_cast<Eigen::Index>(entity_count(mesh, field.location)) * field.components)
@@ -96,7 +119,8 @@ void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const
     if (points == PointData::of_cells_too) add_field(grid.on_points, at_nodes(to_nodes, field), field.name);
   };
   for (const Point& node : mesh.nodes) add_point(grid, node);
-  for (const Ring& nodes : mesh.cell_nodes) add_cell(grid, nodes);
+  grid.cell_dimension = dimension;
+  for (const CellNodes& nodes : mesh.cell_nodes) add_cell(grid, nodes);
   GridData::Array region = integers("region");
   region.values.assign(mesh.cell_region.begin(), mesh.cell_region.end());
   grid.on_cells.push_back(std::move(region));
@@ -116,12 +140,9 @@ void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const
 
 void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields) {
   GridData grid;
-  for (const FracturePoint& point : mesh.fracture_points) add_point(grid, point.position);
+  add_fracture_cells(grid, mesh);
   GridData::Array fracture = integers("fracture");
-  for (const FractureCell& cell : mesh.fracture_cells) {
-    add_cell(grid, cell.points);
-    fracture.values.push_back(cell.fracture);
-  }
+  for (const FractureCell& cell : mesh.fracture_cells) fracture.values.push_back(cell.fracture);
   grid.on_cells.push_back(std::move(fracture));
   for (const OutputField& field : fields) {
     require_size(field, mesh);
@@ -136,6 +157,7 @@ void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, con
 
 void write_line_vtu(const std::filesystem::path& file, const std::vector<OutputLine>& lines) {
   GridData grid;
+  grid.cell_dimension = 1;
   GridData::Array fracture = integers("fracture");
   for (const OutputLine& line : lines) {
     for (std::size_t i = 0; i < line.points.size(); ++i) {

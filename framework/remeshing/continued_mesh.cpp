@@ -6,11 +6,11 @@
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/cavity.hpp"
 #include "framework/remeshing/overlap.hpp"
 #include "framework/remeshing/replaced_parts.hpp"
-#include "framework/remeshing/same_fracture_points.hpp"
+#include "framework/remeshing/same_ridges.hpp"
 #include "framework/remeshing/sorted_ends.hpp"
 
 namespace sprekk {
@@ -149,7 +149,7 @@ class Continuation {
         change.fracture_cell[cells.back()] = none;
       }
     }
-    change.fracture_point = same_fracture_points(mesh_, mesh, change.fracture_cell);
+    change.ridge = same_ridges(mesh_, mesh, change.fracture_cell);
   }
 
   void map_faces(GrownMesh& grown) const {

@@ -8,13 +8,13 @@
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/healed_mesh.hpp"
 #include "framework/remeshing/overlap.hpp"
 #include "framework/remeshing/path_nodes.hpp"
 #include "framework/remeshing/refill_cavity.hpp"
 #include "framework/remeshing/replaced_parts.hpp"
-#include "framework/remeshing/same_fracture_points.hpp"
+#include "framework/remeshing/same_ridges.hpp"
 #include "framework/remeshing/sorted_ends.hpp"
 
 namespace sprekk {
@@ -100,10 +100,10 @@ class Growth {
     }
     for (int face = 0, edge = 0; face < mesh_.face_count(); ++face) {
       if (mesh_.face_side[face] == none) continue;
-      if (!refill.is_removed[mesh_.face_cells[face][0]]) raw.boundary_edges.push_back(raw_.boundary_edges[edge]);
+      if (!refill.is_removed[mesh_.face_cells[face][0]]) raw.boundary_faces.push_back(raw_.boundary_faces[edge]);
       ++edge;
     }
-    raw.boundary_edges.insert(raw.boundary_edges.end(), refill.boundary_edges.begin(), refill.boundary_edges.end());
+    raw.boundary_faces.insert(raw.boundary_faces.end(), refill.boundary_faces.begin(), refill.boundary_faces.end());
     raw.fractures = raw_.fractures;
     for (std::size_t e = 0; e < extensions_.size(); ++e) {
       auto& chain = raw.fractures[extensions_[e].fracture].nodes;
@@ -172,7 +172,7 @@ class Growth {
         change.fracture_cell[now] = mesh_.fractures[f].first_cell + i;
       }
     }
-    change.fracture_point = same_fracture_points(mesh_, mesh, change.fracture_cell);
+    change.ridge = same_ridges(mesh_, mesh, change.fracture_cell);
   }
 
   void map_faces(const RawMesh& raw, GrownMesh& grown) const {
@@ -226,7 +226,7 @@ void relate_to_given(const Mesh& given, const HealedMesh& healed, GrownMesh& gro
   MeshChange& change = grown.change;
   through(healed.face, change.face);
   through(healed.fracture_cell, change.fracture_cell);
-  through(healed.fracture_point, change.fracture_point);
+  through(healed.ridge, change.ridge);
   for (std::size_t e = 0; e < healed.replaced.size(); ++e)
     add_replaced_parts(given, healed.replaced[e], grown.mesh, grown.extension_cells[e], change);
 }

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/healed_mesh.hpp"
 #include "framework/remeshing/obstacles.hpp"
 
@@ -27,15 +27,15 @@ constexpr double room_ahead = 1.5;
 constexpr double self_gap = 0.25;
 
 struct OwnEnd {
-  FracturePoint::Kind kind;
-  Point position, before;
+  Ridge::Kind kind;
+  Point center, before;
 };
 
 OwnEnd own_end(const Mesh& mesh, int fracture, bool at_end) {
   const auto& [name, first, count] = mesh.fractures[fracture];
   const FractureCell& cell = mesh.fracture_cells[at_end ? first + count - 1 : first];
-  const FracturePoint& point = mesh.fracture_points[cell.points[at_end ? 1 : 0]];
-  return {point.kind, point.position, mesh.fracture_points[cell.points[at_end ? 0 : 1]].position};
+  const Ridge& point = mesh.ridges[cell.ridges[at_end ? 1 : 0]];
+  return {point.kind, point.center, mesh.ridges[cell.ridges[at_end ? 0 : 1]].center};
 }
 
 double extent(const Mesh& mesh) {
@@ -98,13 +98,13 @@ class Check {
   void check_end() const {
     const PathExtension& own = extensions_[index_];
     const OwnEnd end = own_end(mesh_, own.fracture, own.at_end);
-    if (end.kind != FracturePoint::Kind::tip) {
-      refuse(Reason::no_tip, end.position, "already ends",
-             end.kind == FracturePoint::Kind::junction ? "at another fracture" : "on the outer boundary");
+    if (end.kind != Ridge::Kind::tip) {
+      refuse(Reason::no_tip, end.center, "already ends",
+             end.kind == Ridge::Kind::junction ? "at another fracture" : "on the outer boundary");
     }
     for (int i = 0; i < index_; ++i) {
       if (extensions_[i].fracture == own.fracture && extensions_[i].at_end == own.at_end) {
-        refuse(Reason::no_tip, end.position, "is extended twice", "an end grows along one path at a time");
+        refuse(Reason::no_tip, end.center, "is extended twice", "an end grows along one path at a time");
       }
     }
   }
@@ -112,8 +112,8 @@ class Check {
   void check_form() const {
     const PathExtension& own = extensions_[index_];
     const OwnEnd end = own_end(mesh_, own.fracture, own.at_end);
-    if (own.points.empty()) refuse(Reason::no_path, end.position, "gets no new point", "the path is empty");
-    Point from = end.position, before = end.before;
+    if (own.points.empty()) refuse(Reason::no_path, end.center, "gets no new point", "the path is empty");
+    Point from = end.center, before = end.before;
     for (const Point& to : own.points) {
       if (!to.allFinite()) refuse(Reason::no_path, from, "gets a point that is no number", "after this one");
       if ((to - from).norm() <= std::max(touch_, shortest * size_)) {
@@ -154,18 +154,18 @@ class Check {
   void join(Point& end) {
     const int own = extensions_[index_].fracture;
     double least = joint_snap * size_;
-    const FracturePoint* nearest = nullptr;
-    for (const FracturePoint& point : mesh_.fracture_points) {
+    const Ridge* nearest = nullptr;
+    for (const Ridge& point : mesh_.ridges) {
       const bool is_own = std::any_of(point.cells.begin(), point.cells.end(),
                                       [&](int cell) { return mesh_.fracture_cells[cell].fracture == own; });
-      if (is_own || point.kind == FracturePoint::Kind::on_boundary || (point.position - end).norm() >= least) continue;
-      least = (point.position - end).norm();
+      if (is_own || point.kind == Ridge::Kind::on_boundary || (point.center - end).norm() >= least) continue;
+      least = (point.center - end).norm();
       nearest = &point;
     }
     if (!nearest) return;
-    end = nearest->position;
-    for (const FracturePoint& point : mesh_.fracture_points) {
-      if (point.position != end) continue;
+    end = nearest->center;
+    for (const Ridge& point : mesh_.ridges) {
+      if (point.center != end) continue;
       for (const int cell : point.cells) is_joined_[mesh_.fracture_cells[cell].fracture] = true;
     }
   }
@@ -182,7 +182,7 @@ class Check {
   std::vector<Segment> path() const {
     const PathExtension& own = extensions_[index_];
     std::vector<Segment> segments;
-    Point from = own_end(mesh_, own.fracture, own.at_end).position;
+    Point from = own_end(mesh_, own.fracture, own.at_end).center;
     for (const Point& to : own.points) {
       segments.push_back({from, to});
       from = to;

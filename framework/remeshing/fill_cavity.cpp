@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/triangulation/canonical_drawing.hpp"
 #include "framework/triangulation/mesh_region.hpp"
 

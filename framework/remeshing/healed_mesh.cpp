@@ -6,7 +6,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/remeshing/same_fracture_points.hpp"
+#include "framework/remeshing/same_ridges.hpp"
 
 namespace sprekk {
 namespace {
@@ -25,17 +25,17 @@ class ReplacedCells {
 
   std::vector<int> checked() const {
     if (cells_.empty()) return {};
-    const FracturePoint& tip = mesh_.fracture_points[outer_point(cells_.back())];
-    if (tip.kind != FracturePoint::Kind::tip)
-      refuse(Reason::no_tip, tip.position, "already ends",
-             tip.kind == FracturePoint::Kind::junction ? "at another fracture" : "on the outer boundary");
+    const Ridge& tip = mesh_.ridges[outer_point(cells_.back())];
+    if (tip.kind != Ridge::Kind::tip)
+      refuse(Reason::no_tip, tip.center, "already ends",
+             tip.kind == Ridge::Kind::junction ? "at another fracture" : "on the outer boundary");
     double replaced_length = 0;
     for (const int cell : cells_) {
-      const FracturePoint& point = mesh_.fracture_points[inner_point(cell)];
+      const Ridge& point = mesh_.ridges[inner_point(cell)];
       if (!mesh_.fracture_cells[cell].grown)
         refuse(Reason::not_replaceable, mesh_.fracture_cells[cell].center, "would close", "it has not grown there");
-      if (point.kind == FracturePoint::Kind::junction)
-        refuse(Reason::not_replaceable, point.position, "would close", "another fracture meets it there");
+      if (point.kind == Ridge::Kind::junction)
+        refuse(Reason::not_replaceable, point.center, "would close", "another fracture meets it there");
       replaced_length += mesh_.fracture_cells[cell].measure;
     }
     check_length(replaced_length);
@@ -45,19 +45,18 @@ class ReplacedCells {
   std::vector<Segment> scars() const {
     std::vector<Segment> scars;
     for (const int cell : cells_)
-      scars.push_back(
-          {mesh_.fracture_points[inner_point(cell)].position, mesh_.fracture_points[outer_point(cell)].position});
+      scars.push_back({mesh_.ridges[inner_point(cell)].center, mesh_.ridges[outer_point(cell)].center});
     return scars;
   }
 
  private:
-  int inner_point(int cell) const { return mesh_.fracture_cells[cell].points[extension_.at_end ? 0 : 1]; }
-  int outer_point(int cell) const { return mesh_.fracture_cells[cell].points[extension_.at_end ? 1 : 0]; }
+  int inner_point(int cell) const { return mesh_.fracture_cells[cell].ridges[extension_.at_end ? 0 : 1]; }
+  int outer_point(int cell) const { return mesh_.fracture_cells[cell].ridges[extension_.at_end ? 1 : 0]; }
 
   void check_length(double replaced_length) const {
     if (extension_.points.empty()) return;  // refused later, like all paths without points
     constexpr double round_off = 1e-12;
-    Point from = mesh_.fracture_points[inner_point(cells_.front())].position;
+    Point from = mesh_.ridges[inner_point(cells_.front())].center;
     double length = 0;
     for (const Point& to : extension_.points) length += (to - from).norm(), from = to;
     if (length < (1 - round_off) * replaced_length)
@@ -117,7 +116,7 @@ HealedMesh heal_ends(const Mesh& mesh, const std::vector<PathExtension>& extensi
   healed.mesh.cell_rank = mesh.cell_rank;
   for (std::size_t i = 0; i < healed.fracture_cell.size(); ++i)
     healed.mesh.fracture_cells[i].grown = mesh.fracture_cells[healed.fracture_cell[i]].grown;
-  healed.fracture_point = same_fracture_points(mesh, healed.mesh, healed.fracture_cell);
+  healed.ridge = same_ridges(mesh, healed.mesh, healed.fracture_cell);
   healed.face.assign(healed.mesh.face_count(), none);
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     for (int k = 0; k < mesh.cell_faces[cell].size(); ++k) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/path_extension.hpp"
 
 namespace sprekk {
@@ -13,9 +13,9 @@ namespace sprekk {
 /// Where walls have closed there is one face, and one node where there were two.
 struct HealedMesh {
   Mesh mesh;
-  std::vector<int> face;            ///< per face: the same one of the given mesh; none where two walls have become one
-  std::vector<int> fracture_cell;   ///< per fracture cell: the same one of the given mesh
-  std::vector<int> fracture_point;  ///< per fracture point: the same one of the given mesh
+  std::vector<int> face;           ///< per face: the same one of the given mesh; none where two walls have become one
+  std::vector<int> fracture_cell;  ///< per fracture cell: the same one of the given mesh
+  std::vector<int> ridge;          ///< per fracture point: the same one of the given mesh
   /// Per extension: the fracture cells of the given mesh that have closed, from the anchor on, and where they were.
   std::vector<std::vector<int>> replaced;
   std::vector<std::vector<Segment>> scars;

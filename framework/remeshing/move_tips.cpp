@@ -5,7 +5,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/healed_mesh.hpp"
 #include "framework/remeshing/overlap.hpp"
 #include "framework/remeshing/replaced_parts.hpp"
@@ -127,10 +127,10 @@ class Motion {
 
 bool have_same_numbers(const Mesh& one, const Mesh& other) {
   const auto same_cell = [](const FractureCell& a, const FractureCell& b) {
-    return a.faces == b.faces && a.points == b.points && a.fracture == b.fracture;
+    return a.faces == b.faces && a.ridges == b.ridges && a.fracture == b.fracture;
   };
   return one.cell_nodes == other.cell_nodes && one.cell_faces == other.cell_faces &&
-         one.face_nodes == other.face_nodes && one.fracture_points.size() == other.fracture_points.size() &&
+         one.face_nodes == other.face_nodes && one.ridges.size() == other.ridges.size() &&
          std::ranges::equal(one.fracture_cells, other.fracture_cells, same_cell);
 }
 

@@ -26,8 +26,8 @@ void stretch(const Segment& edge, Segment& line) {
 }  // namespace
 
 Segment cell_segment(const Mesh& mesh, int fracture_cell) {
-  const auto [a, b] = mesh.fracture_cells[fracture_cell].points;
-  return {mesh.fracture_points[a].position, mesh.fracture_points[b].position};
+  const auto [a, b] = mesh.fracture_cells[fracture_cell].ridges;
+  return {mesh.ridges[a].center, mesh.ridges[b].center};
 }
 
 Segment face_segment(const Mesh& mesh, int face) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "framework/mesh/adjacency.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/graded_division.hpp"
 #include "framework/meshing/narrow_gaps.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "framework/mesh/original_end.hpp"
+#include "framework/mesh/plane/original_end.hpp"
 #include "framework/meshing/graded_division.hpp"
 #include "framework/remeshing/cavity.hpp"
 #include "framework/remeshing/fill_cavity.hpp"
@@ -181,7 +181,7 @@ class Refilling {
       const std::vector<int> nodes = divide_outer_edge(edge.nodes, refill.nodes);
       for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
         outline.add(nodes[i], nodes[i + 1], Place::rim, true);
-        refill.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, edge.side});
+        refill.boundary_faces.push_back({{nodes[i], nodes[i + 1]}, edge.side});
       }
     }
     const Triangulation filling = filled(outline.get(), size_factor, part, part_of_path);

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/raw_mesh.hpp"
 #include "framework/remeshing/cavity_options.hpp"
 #include "framework/remeshing/path_nodes.hpp"
@@ -18,7 +18,7 @@ struct Refill {
   std::vector<bool> is_removed;  ///< per old cell
   std::vector<Point> nodes;
   std::vector<std::array<int, 3>> triangles;
-  std::vector<RawMesh::BoundaryEdge> boundary_edges;                ///< of the new triangles
+  std::vector<RawMesh::BoundaryFace> boundary_faces;                ///< of the new triangles
   double smallest_angle = std::numeric_limits<double>::infinity();  ///< rad, of the new triangles
   int single_corners = 0;                                           ///< new triangles with two barriers
 };

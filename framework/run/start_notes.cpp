@@ -11,7 +11,7 @@
 #include "framework/linear/direct/blas_memory.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/network_shape.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {

@@ -35,7 +35,7 @@ bool can_follow(const Mesh& mesh, const std::vector<PathExtension>& paths, const
 const Point& tip_of(const Mesh& mesh, const PathExtension& path) {
   const Fracture& fracture = mesh.fractures[path.fracture];
   const int last = path.at_end ? fracture.first_cell + fracture.cell_count - 1 : fracture.first_cell;
-  return mesh.fracture_points[mesh.fracture_cells[last].points[path.at_end ? 1 : 0]].position;
+  return mesh.ridges[mesh.fracture_cells[last].ridges[path.at_end ? 1 : 0]].center;
 }
 
 }  // namespace

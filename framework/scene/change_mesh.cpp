@@ -61,8 +61,8 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
         copy_kept(old, change.fracture_cell, 2, values);
         share_replaced(old, change, 2, values);
         break;
-      case Location::fracture_point:
-        copy_kept(old, change.fracture_point, 1, values);
+      case Location::ridge:
+        copy_kept(old, change.ridge, 1, values);
         break;
       case Location::node:
       case Location::face:

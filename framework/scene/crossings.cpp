@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "framework/mesh/planar.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/plane/point_location.hpp"
 #include "framework/scene/fracture_set.hpp"
 
 namespace sprekk {
@@ -70,7 +70,7 @@ std::vector<CrossingFill> Crossings::fills(const Mesh& mesh) const {
       if (said_by[j])
         throw InputError(entry.origin, "'" + name + "' says what fills a crossing that is filled",
                          "'" + *said_by[j] + "' says it for the crossing at " +
-                             to_text(mesh.fracture_points[mesh.junctions[j].points.front()].position),
+                             to_text(mesh.ridges[mesh.junctions[j].ridges.front()].center),
                          "name the fractures under 'between', so that each crossing belongs to one of them");
       said_by[j] = &name;
       if (entry.conductivity) fills[j].resistivity = 1 / *entry.conductivity;

@@ -7,7 +7,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {

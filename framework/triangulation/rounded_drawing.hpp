@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/face_table.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {
@@ -15,7 +15,7 @@ class Smoother {
       : points_(points), triangles_(triangles), is_free_(is_free) {}
 
   void flip() {
-    const CellEdges edges(points_, triangles_);
+    const FaceTable edges(points_, triangles_);
     std::vector<char> is_stale(triangles_.size(), false);
     for (int edge = 0; edge < edges.size(); ++edge) {
       const auto [a, c] = edges.nodes(edge);

@@ -4,8 +4,8 @@
 #include <limits>
 #include <numbers>
 
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/face_table.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {
@@ -24,7 +24,7 @@ class Round {
         is_fixed_(edges_.size()),
         is_barrier_(edges_.size()) {
     for (const auto& [points, is_barrier] : t.fixed_edges) {
-      const int edge = edges_.find(points[0], points[1]);
+      const int edge = edges_.find({points[0], points[1]});
       if (edge < 0) continue;
       is_fixed_[edge] = true;
       if (is_barrier) is_barrier_[edge] = true;
@@ -103,7 +103,7 @@ class Round {
   }
   double angle(int a, int b, int c) const { return smallest_angle(t_.points[a], t_.points[b], t_.points[c]); }
   bool is_barrier(int a, int b) const {
-    const int edge = edges_.find(a, b);
+    const int edge = edges_.find({a, b});
     return edge >= 0 && is_barrier_[edge];
   }
   /// Whether both edges at `corner` of a triangle are barriers, its third edge being new.
@@ -177,7 +177,7 @@ class Round {
   }
 
   Triangulation& t_;
-  const CellEdges edges_;
+  const FaceTable edges_;
   std::vector<bool> is_fixed_, is_barrier_;
 };
 

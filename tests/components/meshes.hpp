@@ -96,12 +96,12 @@ inline Mesh grid_of(const std::vector<double>& x, const std::vector<double>& y) 
       raw.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
   raw.regions.assign(raw.cells.size(), 0);
   for (int j = 0; j < rows; ++j) {
-    raw.boundary_edges.push_back({{node(0, j), node(0, j + 1)}, 0});
-    raw.boundary_edges.push_back({{node(columns, j), node(columns, j + 1)}, 1});
+    raw.boundary_faces.push_back({{node(0, j), node(0, j + 1)}, 0});
+    raw.boundary_faces.push_back({{node(columns, j), node(columns, j + 1)}, 1});
   }
   for (int i = 0; i < columns; ++i) {
-    raw.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 2});
-    raw.boundary_edges.push_back({{node(i, rows), node(i + 1, rows)}, 3});
+    raw.boundary_faces.push_back({{node(i, 0), node(i + 1, 0)}, 2});
+    raw.boundary_faces.push_back({{node(i, rows), node(i + 1, rows)}, 3});
   }
   return build_mesh(raw);
 }
@@ -125,10 +125,10 @@ inline Mesh square_with_single_corners(int n) {
     }
   raw.regions.assign(raw.cells.size(), 0);
   for (int i = 0; i < n; ++i) {
-    raw.boundary_edges.push_back({{node(0, i), node(0, i + 1)}, 0});
-    raw.boundary_edges.push_back({{node(n, i), node(n, i + 1)}, 1});
-    raw.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 2});
-    raw.boundary_edges.push_back({{node(i, n), node(i + 1, n)}, 3});
+    raw.boundary_faces.push_back({{node(0, i), node(0, i + 1)}, 0});
+    raw.boundary_faces.push_back({{node(n, i), node(n, i + 1)}, 1});
+    raw.boundary_faces.push_back({{node(i, 0), node(i + 1, 0)}, 2});
+    raw.boundary_faces.push_back({{node(i, n), node(i + 1, n)}, 3});
   }
   return build_mesh(raw);
 }

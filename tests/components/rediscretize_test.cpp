@@ -123,7 +123,7 @@ MeshChange identity(const Mesh& mesh) {
   change.cell = count_up(mesh.cell_count());
   change.face = count_up(mesh.face_count());
   change.fracture_cell = count_up(mesh.fracture_cell_count());
-  change.fracture_point = count_up(static_cast<int>(mesh.fracture_points.size()));
+  change.ridge = count_up(static_cast<int>(mesh.ridges.size()));
   return change;
 }
 

@@ -33,7 +33,7 @@ Mesh two_cells() {
   raw.regions = {0, 0};
   raw.region_names = {"all"};
   raw.side_names = {"outside"};
-  for (int k = 0; k < 4; ++k) raw.boundary_edges.push_back({{k, (k + 1) % 4}, 0});
+  for (int k = 0; k < 4; ++k) raw.boundary_faces.push_back({{k, (k + 1) % 4}, 0});
   return build_mesh(raw);
 }
 

@@ -58,8 +58,8 @@ std::vector<PathExtension> paths_at_rest(const Model& model, const StepTime& ste
   for (PathExtension& path : paths) {
     const Fracture& fracture = model.mesh().fractures[path.fracture];
     const int last = path.at_end ? fracture.first_cell + fracture.cell_count - 1 : fracture.first_cell;
-    const int point = model.mesh().fracture_cells[last].points[path.at_end ? 1 : 0];
-    path.points.back() = model.mesh().fracture_points[point].position;
+    const int point = model.mesh().fracture_cells[last].ridges[path.at_end ? 1 : 0];
+    path.points.back() = model.mesh().ridges[point].center;
   }
   return paths;
 }
@@ -99,7 +99,7 @@ double bend(const Mesh& mesh, const std::vector<PathExtension>& paths) {
     if (path.points.size() != 2) continue;
     const Fracture& fracture = mesh.fractures[path.fracture];
     const int last = path.at_end ? fracture.first_cell + fracture.cell_count - 1 : fracture.first_cell;
-    const Point anchor = mesh.fracture_points[mesh.fracture_cells[last].points[path.at_end ? 0 : 1]].position;
+    const Point anchor = mesh.ridges[mesh.fracture_cells[last].ridges[path.at_end ? 0 : 1]].center;
     const Point chord = path.points[1] - anchor, part = path.points[0] - anchor;
     largest = std::max(largest, std::abs(chord[0] * part[1] - chord[1] * part[0]) / chord.squaredNorm());
   }

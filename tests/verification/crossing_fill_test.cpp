@@ -161,7 +161,7 @@ TEST(CrossingFill, ConductsHeatAsItConductsFluid) {
     const Mesh& mesh = run.mesh();
     for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
       const FractureCell& cell = mesh.fracture_cells[i];
-      if (mesh.fracture_points[cell.points[0]].kind == FracturePoint::Kind::on_boundary && cell.center.x() < -1)
+      if (mesh.ridges[cell.ridges[0]].kind == Ridge::Kind::on_boundary && cell.center.x() < -1)
         return 20 * width * (340 - run.field("water.temperature")[i]) / (0.5 * cell.measure);
     }
     return 0.0;

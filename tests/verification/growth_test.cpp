@@ -167,7 +167,7 @@ TEST(WingCracks, GrowThroughQuadrilaterals) {
 void extend(const Model& model, const Point& by, double time, MeshChangeResult& changed) {
   const Mesh& mesh = model.mesh();
   const int last = mesh.fractures[0].cell_count - 1;
-  const Point tip = mesh.fracture_points[mesh.fracture_cells[last].points[1]].position;
+  const Point tip = mesh.ridges[mesh.fracture_cells[last].ridges[1]].center;
   changed = change_mesh(model, 0, grow_mesh(model, 0, {{0, true, {tip + by}}}), {-3600, 3600, time});
   ASSERT_TRUE(changed.settling.converged) << changed.settling.reason;
   ASSERT_EQ(changed.model->mesh().fractures[0].cell_count, last + 2);
@@ -280,7 +280,7 @@ TEST(WingCracks, APathIsKeptUntilTheMeshHasTakenItOver) {
     const Fracture& fracture = model.mesh().fractures[0];
     const FractureCell& end =
         model.mesh().fracture_cells[fracture.first_cell + (extension.at_end ? fracture.cell_count - 1 : 0)];
-    Point last = model.mesh().fracture_points[end.points[extension.at_end ? 1 : 0]].position;
+    Point last = model.mesh().ridges[end.ridges[extension.at_end ? 1 : 0]].center;
     double handed_over = 0;
     for (const Point& x : extension.points) {
       handed_over += (x - last).norm();

@@ -48,8 +48,8 @@ TEST(Joining, AnOpenFractureHasTheStateThatOneOfThisFormHas) {
   EXPECT_NEAR(run.time() / hour, 1.61, 0.08);
   ASSERT_EQ(run.mesh().junctions.size(), 1u);
   EXPECT_EQ(run.mesh().junctions[0].cells.size(), 3u);
-  const int point = run.mesh().junctions[0].points[0];
-  EXPECT_NEAR(run.mesh().fracture_points[point].position.y(), 0, 0.0051);  // half a cell of the other fracture
+  const int point = run.mesh().junctions[0].ridges[0];
+  EXPECT_NEAR(run.mesh().ridges[point].center.y(), 0, 0.0051);  // half a cell of the other fracture
   EXPECT_EQ(run.quantity("tips.main_last.stopped"), 1);
   EXPECT_NEAR(run.quantity("tips.main_last.length"), 0.065, 0.002);
   EXPECT_EQ(run.quantity("tips.wall_last.stopped"), 0);

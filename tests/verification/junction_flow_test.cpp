@@ -66,11 +66,11 @@ TEST(Junctions, DivideFlowsLikeAStarOfResistances) {
     }
   }
   const Mesh& mesh = run.mesh();
-  for (std::size_t k = 0; k < mesh.fracture_points.size(); ++k) {
-    const FracturePoint& point = mesh.fracture_points[k];
-    if (point.kind != FracturePoint::Kind::on_boundary) continue;
+  for (std::size_t k = 0; k < mesh.ridges.size(); ++k) {
+    const Ridge& point = mesh.ridges[k];
+    if (point.kind != Ridge::Kind::on_boundary) continue;
     for (const Arm& arm : arms) {
-      if (arm.direction.dot(point.position - middle) < 1e-9) continue;
+      if (arm.direction.dot(point.center - middle) < 1e-9) continue;
       EXPECT_NEAR(run.field("conduit.flux")[k],
                   arm.transmissivity / arm.length * (weighted / conductance - arm.pressure), 1e-12);
     }
@@ -103,8 +103,8 @@ TEST(Junctions, LeaveASealedBranchAlone) {
               "1 Pa}, bottom: {pressure: -2 Pa}, top: {pressure: 100 Pa}}"));
   run.run();
   double leaving = 0;
-  for (std::size_t k = 0; k < run.mesh().fracture_points.size(); ++k)
-    if (run.mesh().fracture_points[k].position.y() > 0.2 + 1e-9) leaving += std::abs(run.field("conduit.flux")[k]);
+  for (std::size_t k = 0; k < run.mesh().ridges.size(); ++k)
+    if (run.mesh().ridges[k].center.y() > 0.2 + 1e-9) leaving += std::abs(run.field("conduit.flux")[k]);
   EXPECT_EQ(leaving, 0);
   for (int i = 0; i < run.mesh().fracture_cell_count(); ++i) {
     if (run.mesh().fracture_cells[i].center.y() < 0.2 + 1e-9) continue;
@@ -262,8 +262,8 @@ TEST(Junctions, ConductAnyAmountBetterThanTheRock) {
     // What a cell of the fracture loses to the rock, it gets through its points.
     const Mesh& mesh = run.mesh();
     Vector rest = Vector::Zero(mesh.fracture_cell_count());
-    for (std::size_t k = 0; k < mesh.fracture_points.size(); ++k) {
-      const auto& cells = mesh.fracture_points[k].cells;
+    for (std::size_t k = 0; k < mesh.ridges.size(); ++k) {
+      const auto& cells = mesh.ridges[k].cells;
       if (cells.size() < 2) continue;
       rest[cells[0]] += run.field("conduit.flux")[k];
       rest[cells[1]] -= run.field("conduit.flux")[k];

@@ -49,8 +49,8 @@ MeshChangeResult grow_a_wing(SceneRun& run) {
   run.run_until(200);
   const Mesh& mesh = run.mesh();
   const Fracture& fracture = mesh.fractures[0];
-  const int end = mesh.fracture_cells[fracture.first_cell + fracture.cell_count - 1].points[1];
-  const Point tip = mesh.fracture_points[end].position;
+  const int end = mesh.fracture_cells[fracture.first_cell + fracture.cell_count - 1].ridges[1];
+  const Point tip = mesh.ridges[end].center;
   return change_mesh(run.model(), 0, grow_mesh(run.model(), 0, {{0, true, {tip + Point(0.018, -0.008)}}}),
                      {-3600, 3600, run.time()});
 }

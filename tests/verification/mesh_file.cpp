@@ -29,7 +29,7 @@ std::string write_msh(const RawMesh& mesh, const Tensor& map, const Point& shift
   }
   const int first_side = group + 1;
   for (const std::string& side : mesh.side_names) add_group(1, side);
-  for (const auto& edge : mesh.boundary_edges) add(1, first_side + edge.side, edge.nodes);
+  for (const auto& edge : mesh.boundary_faces) add(1, first_side + edge.side, edge.nodes);
   for (const RawMesh::Chain& fracture : mesh.fractures) {
     const int number = add_group(1, fracture.name);
     for (std::size_t i = 1; i < fracture.nodes.size(); ++i)

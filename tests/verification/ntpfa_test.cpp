@@ -140,10 +140,10 @@ RawMesh square_with_a_hole(bool triangles) {
   raw.regions.assign(raw.cells.size(), 0);
   for (const auto& [first, end, side] : {std::array{0, n, 0}, std::array{low, high, 1}})
     for (int k = first; k < end; ++k) {
-      raw.boundary_edges.push_back({{node(k, first), node(k + 1, first)}, side});
-      raw.boundary_edges.push_back({{node(k, end), node(k + 1, end)}, side});
-      raw.boundary_edges.push_back({{node(first, k), node(first, k + 1)}, side});
-      raw.boundary_edges.push_back({{node(end, k), node(end, k + 1)}, side});
+      raw.boundary_faces.push_back({{node(k, first), node(k + 1, first)}, side});
+      raw.boundary_faces.push_back({{node(k, end), node(k + 1, end)}, side});
+      raw.boundary_faces.push_back({{node(first, k), node(first, k + 1)}, side});
+      raw.boundary_faces.push_back({{node(end, k), node(end, k + 1)}, side});
     }
   return raw;
 }

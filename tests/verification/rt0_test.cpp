@@ -203,7 +203,7 @@ TEST(Rt0, StepsEndWithAFlatCell) {
   mesh.regions = {0, 0, 0, 0};
   mesh.region_names = {"rock"};
   mesh.side_names = {"bottom", "right", "top", "left"};
-  for (int k = 0; k < 4; ++k) mesh.boundary_edges.push_back({{k, (k + 1) % 4}, k});
+  for (int k = 0; k < 4; ++k) mesh.boundary_faces.push_back({{k, (k + 1) % 4}, k});
   for (const double degrees : {0.0, 33.0}) {
     const Tensor turn = turned_by(degrees);
     const std::string on_side =

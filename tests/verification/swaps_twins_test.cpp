@@ -28,7 +28,7 @@ enum class Twin { as_drawn, turned, disturbed };
 /// Nodes that are on no side and on no fracture move by up to 1e-9 of `size`.
 RawMesh disturbed(RawMesh mesh, double size) {
   std::vector<char> stays(mesh.nodes.size(), 0);
-  for (const auto& edge : mesh.boundary_edges)
+  for (const auto& edge : mesh.boundary_faces)
     for (const int node : edge.nodes) stays[node] = 1;
   for (const auto& fracture : mesh.fractures)
     for (const int node : fracture.nodes) stays[node] = 1;

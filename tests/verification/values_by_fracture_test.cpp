@@ -115,8 +115,8 @@ time: {end: 1 day, step: 1 day}
 )");
   ASSERT_TRUE(run.step());
   const Vector& flux = run.field("conduit.flux");
-  for (int i = 0; i < static_cast<int>(run.mesh().fracture_points.size()); ++i) {
-    const FracturePoint& point = run.mesh().fracture_points[i];
+  for (int i = 0; i < static_cast<int>(run.mesh().ridges.size()); ++i) {
+    const Ridge& point = run.mesh().ridges[i];
     const bool is_high = run.mesh().fracture_cells[point.cells[0]].fracture == 1;
     const double exact = is_high ? 6e-12 / 1e-3 * 3e6 / 4 : 1e-12 / 1e-3 * 1e6 / 4;
     EXPECT_NEAR(std::abs(flux[i]), exact, 1e-9 * exact) << i;

@@ -7,9 +7,10 @@ option(SPREKK_UNITY "Compile files of the framework several at a time" ON)
 set(compiled_alone "^framework/(acceleration|frame_output)$")
 
 # sprekk_library(name folder libraries…): a static library of all sources below `folder`, without those of modules.
+# Folders `plane` and `space` are for one dimension.
 function(sprekk_library name folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "_module/")
+  list(FILTER sources EXCLUDE REGEX "_module/|/space/")
   if(sources)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC ${ARGN})
@@ -24,6 +25,17 @@ function(sprekk_library name folder)
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ${ARGN})
   endif()
+endfunction()
+
+# sprekk_in_space(name folder libraries…): the sources of sprekk_library(name folder …) compiled with three dimensions, as
+# <name>_space. Libraries that know the dimension are named with their ending _space.
+function(sprekk_in_space name folder)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "_module/|/plane/")
+  add_library(${name}_space STATIC EXCLUDE_FROM_ALL ${sources})
+  target_link_libraries(${name}_space PUBLIC ${ARGN})
+  target_compile_definitions(${name}_space PUBLIC SPREKK_DIMENSION=3)
+  set_target_properties(${name}_space PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
 endfunction()
 
 # sprekk_module(name folder user libraries…): sprekk_<name>.so of all sources below `folder` (framework/module/module.hpp),

@@ -6,7 +6,7 @@
 
 #include "components/fine_fracture/fine_level/outline.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "components/fine_fracture/fine_level/outline.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "components/fine_fracture/growth/arc.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -40,23 +40,23 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
   };
   path.length = 0;
   for (int i = 0; i < cells.cell_count; ++i) path.length += mesh.fracture_cells[cells.first_cell + i].measure;
-  const auto end_point = [&](bool at_end) -> const FracturePoint& {
+  const auto end_point = [&](bool at_end) -> const Ridge& {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + (at_end ? cells.cell_count - 1 : 0)];
-    return mesh.fracture_points[cell.points[at_end ? 1 : 0]];
+    return mesh.ridges[cell.ridges[at_end ? 1 : 0]];
   };
   double arc = 0;
-  Point last = end_point(false).position;
+  Point last = end_point(false).center;
   for (const Point& x : added_first.added) {
     arc -= (x - last).norm();
     last = x;
   }
   for (auto x = added_first.added.rbegin(); x != added_first.added.rend(); ++x) {
     append(*x, arc, false);
-    const Point& next = x + 1 == added_first.added.rend() ? end_point(false).position : *(x + 1);
+    const Point& next = x + 1 == added_first.added.rend() ? end_point(false).center : *(x + 1);
     arc += (*x - next).norm();
   }
   arc = 0;
-  append(end_point(false).position, 0, true);
+  append(end_point(false).center, 0, true);
   for (int i = 0; i < cells.cell_count; ++i) {
     const FractureCell& cell = mesh.fracture_cells[cells.first_cell + i];
     const bool is_first = i == 0, is_last = i + 1 == cells.cell_count;
@@ -64,19 +64,19 @@ FracturePath fracture_path(const Mesh& mesh, int fracture, const TipPath& added_
     if (is_first && at_first.corner) append(*at_first.corner, arc + (1 - place_of_corner) * cell.measure, true);
     if (is_last && at_last.corner) append(*at_last.corner, arc + place_of_corner * cell.measure, true);
     arc += cell.measure;
-    const FracturePoint& point = mesh.fracture_points[cell.points[1]];
-    append(point.position, is_last ? path.length : arc,
-           is_last || (is_first && at_first.turns) || point.kind == FracturePoint::Kind::junction);
+    const Ridge& point = mesh.ridges[cell.ridges[1]];
+    append(point.center, is_last ? path.length : arc,
+           is_last || (is_first && at_first.turns) || point.kind == Ridge::Kind::junction);
   }
   arc = path.length;
-  last = end_point(true).position;
+  last = end_point(true).center;
   for (const Point& x : added_last.added) {
     arc += (x - last).norm();
     append(x, arc, false);
     last = x;
   }
-  path.first_is_tip = end_point(false).kind == FracturePoint::Kind::tip;
-  path.last_is_tip = end_point(true).kind == FracturePoint::Kind::tip;
+  path.first_is_tip = end_point(false).kind == Ridge::Kind::tip;
+  path.last_is_tip = end_point(true).kind == Ridge::Kind::tip;
   return path;
 }
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "components/fine_fracture/fine_level/outline.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {

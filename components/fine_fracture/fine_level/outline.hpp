@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 

@@ -22,7 +22,7 @@ double plane_modulus(const LameParameters& rock) {
 JumpFit::JumpFit(const ComponentContext& context, const JumpFitOptions& options)
     : Component(context.name), mesh_(context.mesh), origin_(context.origin), options_(options) {
   for (const TipEnd& end : all_ends(mesh_))
-    if (kind_of(mesh_, end) == FracturePoint::Kind::tip) tips_.push_back({end, name_of(mesh_, end)});
+    if (kind_of(mesh_, end) == Ridge::Kind::tip) tips_.push_back({end, name_of(mesh_, end)});
 }
 
 void JumpFit::accept_surroundings(TipSurroundings& surroundings) {
@@ -46,8 +46,8 @@ FittedFactors JumpFit::factors_of(const Tip& tip) const {
   };
   const auto continues_behind = [&](int i) {
     const FractureCell& cell = cell_from_tip(i);
-    const FracturePoint& behind = mesh_.fracture_points[cell.points[tip.end.at_end ? 0 : 1]];
-    return behind.kind != FracturePoint::Kind::junction &&
+    const Ridge& behind = mesh_.ridges[cell.ridges[tip.end.at_end ? 0 : 1]];
+    return behind.kind != Ridge::Kind::junction &&
            cell.tangents.col(0).dot(cell_from_tip(i + 1).tangents.col(0)) > std::cos(kink);
   };
   int straight = 1;
@@ -67,7 +67,7 @@ FittedFactors JumpFit::factors_of(const Tip& tip) const {
   }
   const int left_out = std::clamp(static_cast<int>(jumps.size()) - 2, 0, options_.leave_out);
   jumps.erase(jumps.begin(), jumps.begin() + left_out);
-  const bool ends_in_tip = kind_of(mesh_, {tip.end.fracture, !tip.end.at_end}) == FracturePoint::Kind::tip;
+  const bool ends_in_tip = kind_of(mesh_, {tip.end.fracture, !tip.end.at_end}) == Ridge::Kind::tip;
   return factors_from_jumps(jumps, plane_modulus(surroundings_->stiffness(end_point(mesh_, tip.end))),
                             ends_in_tip ? total : std::numeric_limits<double>::infinity());
 }

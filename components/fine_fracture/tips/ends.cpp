@@ -8,11 +8,11 @@ const FractureCell& end_cell(const Mesh& mesh, const TipEnd& end) {
 }
 
 Point end_point(const Mesh& mesh, const TipEnd& end) {
-  return mesh.fracture_points[end_cell(mesh, end).points[end.at_end ? 1 : 0]].position;
+  return mesh.ridges[end_cell(mesh, end).ridges[end.at_end ? 1 : 0]].center;
 }
 
-FracturePoint::Kind kind_of(const Mesh& mesh, const TipEnd& end) {
-  return mesh.fracture_points[end_cell(mesh, end).points[end.at_end ? 1 : 0]].kind;
+Ridge::Kind kind_of(const Mesh& mesh, const TipEnd& end) {
+  return mesh.ridges[end_cell(mesh, end).ridges[end.at_end ? 1 : 0]].kind;
 }
 
 std::string name_of(const Mesh& mesh, const TipEnd& end) {

@@ -13,8 +13,8 @@ namespace sprekk::fine_fracture {
 
 /// Both ends of each fracture, in the order of the fractures, the first end first.
 std::vector<TipEnd> all_ends(const Mesh& mesh);
-std::string name_of(const Mesh& mesh, const TipEnd& end);          ///< "main_first"
-FracturePoint::Kind kind_of(const Mesh& mesh, const TipEnd& end);  ///< a tip, a junction or on the boundary
+std::string name_of(const Mesh& mesh, const TipEnd& end);  ///< "main_first"
+Ridge::Kind kind_of(const Mesh& mesh, const TipEnd& end);  ///< a tip, a junction or on the boundary
 inline bool is_same(const TipEnd& a, const TipEnd& b) { return a.fracture == b.fracture && a.at_end == b.at_end; }
 
 Point end_point(const Mesh& mesh, const TipEnd& end);  ///< where the fracture ends in the mesh, m

@@ -7,7 +7,7 @@
 #include "components/fine_fracture/growth/front_limits.hpp"
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips_front.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -36,7 +36,7 @@ double length_that_counts(const Mesh& mesh, const TipEnd& end) {
     return mesh.fracture_cells[fracture.first_cell + (end.at_end ? fracture.cell_count - 1 - k : k)];
   };
   const auto direction = [&](const FractureCell& cell) {
-    return Point(mesh.fracture_points[cell.points[1]].position - mesh.fracture_points[cell.points[0]].position);
+    return Point(mesh.ridges[cell.ridges[1]].center - mesh.ridges[cell.ridges[0]].center);
   };
   double grown = 0;
   for (int k = 0; k < fracture.cell_count && cell_at(k).grown; ++k) {

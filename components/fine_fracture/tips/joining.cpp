@@ -6,7 +6,7 @@
 
 #include "components/fine_fracture/growth/coarse_path.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/fracture_networks.hpp"
 #include "framework/remeshing/free_length.hpp"
 
@@ -26,9 +26,9 @@ double distance_to_boundary(const Mesh& mesh, const Point& x) {
 }  // namespace
 
 /// Whether a point is a tip with a path that the mesh does not have yet: then the point is not the end of its fracture.
-bool Tips::continues_elsewhere(const FracturePoint& point) const {
-  return point.kind == FracturePoint::Kind::tip && std::any_of(tips_.begin(), tips_.end(), [&](const Tip& tip) {
-           return !tip.now.path.added.empty() && position(tip, {}) == point.position;
+bool Tips::continues_elsewhere(const Ridge& point) const {
+  return point.kind == Ridge::Kind::tip && std::any_of(tips_.begin(), tips_.end(), [&](const Tip& tip) {
+           return !tip.now.path.added.empty() && position(tip, {}) == point.center;
          });
 }
 
@@ -48,19 +48,19 @@ std::optional<Tips::Joining> Tips::find_joining(const Tip& tip, const TipOutcome
   const Point wanted = is_met ? free.where : from;
   const double to_side = is_met ? reach : distance_to_boundary(mesh_, from);
   constexpr double widest_turn = std::numbers::pi / 3;
-  std::vector<std::pair<double, const FracturePoint*>> candidates;
-  for (const FracturePoint& point : mesh_.fracture_points) {
-    const Point way = point.position - from;
-    if (networks[mesh_.fracture_cells[point.cells[0]].fracture] == own ||
-        point.kind == FracturePoint::Kind::on_boundary || continues_elsewhere(point) ||
-        way.norm() > std::min(reach, to_side) || way.dot(outcome.ahead) < std::cos(widest_turn) * way.norm())
+  std::vector<std::pair<double, const Ridge*>> candidates;
+  for (const Ridge& point : mesh_.ridges) {
+    const Point way = point.center - from;
+    if (networks[mesh_.fracture_cells[point.cells[0]].fracture] == own || point.kind == Ridge::Kind::on_boundary ||
+        continues_elsewhere(point) || way.norm() > std::min(reach, to_side) ||
+        way.dot(outcome.ahead) < std::cos(widest_turn) * way.norm())
       continue;
-    candidates.emplace_back((point.position - wanted).norm(), &point);
+    candidates.emplace_back((point.center - wanted).norm(), &point);
   }
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [away, point] : candidates) {
     TipPath path = tip.now.path;
-    path.added.push_back(point->position);
+    path.added.push_back(point->center);
     const PathExtension extension{tip.end.fracture, tip.end.at_end,
                                   coarse_path(position(tip, {}), path.added, tip.coarse_size, SharpBends::are_dropped)};
     std::vector<PathExtension> all = others;

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "components/fine_fracture/tips/tips_front.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 

@@ -7,7 +7,7 @@
 
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
-#include "framework/mesh/original_end.hpp"
+#include "framework/mesh/plane/original_end.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 

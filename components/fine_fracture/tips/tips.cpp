@@ -17,8 +17,8 @@ Tips::Tips(const ComponentContext& context, const TipsOptions& options, std::uni
   check_increment();
   check_longest();
   for (const TipEnd& end : all_ends(mesh_)) {
-    if (kind_of(mesh_, end) == FracturePoint::Kind::junction) joints_.push_back({end, name_of(mesh_, end)});
-    if (kind_of(mesh_, end) != FracturePoint::Kind::tip) continue;
+    if (kind_of(mesh_, end) == Ridge::Kind::junction) joints_.push_back({end, name_of(mesh_, end)});
+    if (kind_of(mesh_, end) != Ridge::Kind::tip) continue;
     Tip tip;
     tip.end = end;
     tip.name = name_of(mesh_, end);

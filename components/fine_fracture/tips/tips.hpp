@@ -215,7 +215,7 @@ class Tips : public Component, public FractureTips, public MovingTips, public Gr
   std::optional<Joining> find_joining(const Tip& tip, const TipOutcome& outcome,
                                       const std::vector<PathExtension>& others,
                                       const std::vector<std::pair<int, int>>& joined) const;
-  bool continues_elsewhere(const FracturePoint& point) const;
+  bool continues_elsewhere(const Ridge& point) const;
 
   const Mesh& mesh_;
   Origin origin_;  ///< of the component in the scene

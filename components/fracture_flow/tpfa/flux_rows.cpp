@@ -6,18 +6,25 @@
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "components/fracture_flow/tpfa/half_cell_apertures.hpp"
 #include "components/fracture_flow/tpfa/junction_apertures.hpp"
+#include "framework/mesh/ridge_distance.hpp"
 
 namespace sprekk::fracture_flow {
 
+/// Of half a cell, up to one of its ridges, over the length of that: the resistance to the flow over the inverse of its
+/// transmissivity; m in a plane, where flows are per metre.
+double FractureFlow::half_length(int cell, int ridge) const {
+  return distance_to_ridge(mesh_, cell, ridge) / mesh_.ridges[ridge].measure;
+}
+
 Conductance FractureFlow::conductance(const Link& link) const {
-  const double half = 0.5 * mesh_.fracture_cells[link.first].measure;
+  const double half = half_length(link.first, link.ridge);
   if (link.second == none) {
-    const Transmissivity first = transmissivity(link.first, link.point);
+    const Transmissivity first = transmissivity(link.first, link.ridge);
     return {first.value / half, {{link.first, first.by_aperture / half}}};
   }
   if (!options_.is_constant()) return conductance_by_opening(link);
-  const double other_half = 0.5 * mesh_.fracture_cells[link.second].measure;
-  const Transmissivity first = transmissivity(link.first, link.point), second = transmissivity(link.second, link.point);
+  const double other_half = half_length(link.second, link.ridge);
+  const Transmissivity first = transmissivity(link.first, link.ridge), second = transmissivity(link.second, link.ridge);
   if (first.value == 0 || second.value == 0) return {0, {}};
   return {1 / (half / first.value + other_half / second.value), {}};
 }
@@ -25,7 +32,7 @@ Conductance FractureFlow::conductance(const Link& link) const {
 std::array<FractureFlow::HydraulicHalf, 2> FractureFlow::halves_by_opening(const Link& link) const {
   const auto halves_of = [&](const Vector& aperture) {
     const auto at = [&](int cell) {
-      return CellAperture{0.5 * mesh_.fracture_cells[cell].measure, aperture[cell],
+      return CellAperture{distance_to_ridge(mesh_, cell, link.ridge), aperture[cell],
                           aperture[cell] - initial_aperture_[cell]};
     };
     return half_cell_apertures(at(link.first), at(link.second));
@@ -43,7 +50,7 @@ Conductance FractureFlow::conductance_by_opening(const Link& link) const {
   std::array<double, 2> by_aperture = {0, 0};
   for (int i = 0; i < 2; ++i) {
     const auto [a, by_present] = halves[i].hydraulic;
-    const double own = 12 * viscosity_[cells[i]] * (0.5 * mesh_.fracture_cells[cells[i]].measure) / (a * a * a);
+    const double own = 12 * viscosity_[cells[i]] * half_length(cells[i], link.ridge) / (a * a * a);
     resistance += own;
     for (int k = 0; k < 2; ++k) by_aperture[k] -= 3 * own / a * by_present * halves[i].by_aperture[k];
   }
@@ -88,12 +95,12 @@ void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
   std::vector<CrossingArm> arms;
   for (const int cell : at.cells) {
     const double width = is_in_fracture_cell(cell) ? initial_aperture_[cell] : 0;
-    const double resistivity = options_.is_constant() ? width / given_transmissivity(cell, at.points.front()) : 0;
+    const double resistivity = options_.is_constant() ? width / given_transmissivity(cell, at.ridges.front()) : 0;
     // The mean of both walls.
     const double across = walls.size() > 0 ? 0.5 * (1 / walls[2 * cell] + 1 / walls[2 * cell + 1]) / viscosity_[cell]
                                            : 0.5 * width * resistivity;
-    const FractureCell& of_arm = mesh_.fracture_cells[cell];
-    arms.push_back({of_arm.fracture, 0.5 * of_arm.measure, width, resistivity, across});
+    arms.push_back(
+        {mesh_.fracture_cells[cell].fracture, half_length(cell, at.ridges.front()), width, resistivity, across});
   }
   const std::vector<WayToMiddle> ways = ways_to_middle(arms, fill);
   for (std::size_t i = 0; i < halves.size(); ++i) {
@@ -110,8 +117,8 @@ void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
 std::vector<JunctionFluxes::Half> FractureFlow::given_halves(const Junction& junction) const {
   std::vector<JunctionFluxes::Half> halves;
   for (const int cell : junction.cells) {
-    const double half = 0.5 * mesh_.fracture_cells[cell].measure;
-    halves.push_back({transmissivity(cell, junction.points.front()).value / half,
+    const double half = half_length(cell, junction.ridges.front());
+    halves.push_back({transmissivity(cell, junction.ridges.front()).value / half,
                       Vector::Zero(static_cast<Eigen::Index>(junction.cells.size()))});
   }
   return halves;
@@ -129,7 +136,8 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
     for (const int cell : junction.cells) {
       // The opening of a dry arm does not matter for the other arms.
       const double present = is_in_fracture_cell(cell) ? aperture[cell] : initial_aperture_[cell];
-      cells.push_back({0.5 * mesh_.fracture_cells[cell].measure, present, present - initial_aperture_[cell]});
+      cells.push_back(
+          {distance_to_ridge(mesh_, cell, junction.ridges.front()), present, present - initial_aperture_[cell]});
     }
     return junction_apertures(cells, partners);
   };
@@ -138,7 +146,7 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
   std::vector<JunctionFluxes::Half> halves;
   for (int i = 0; i < count; ++i) {
     const auto [a, by_present] = hydraulic_aperture(arms[i].value, held[i].value);
-    const double half = 0.5 * mesh_.fracture_cells[junction.cells[i]].measure;
+    const double half = half_length(junction.cells[i], junction.ridges.front());
     const double value = a * a * a / (12 * viscosity_[junction.cells[i]] * half);
     halves.push_back({value, 3 * value / a * by_present * arms[i].by_aperture});
   }
@@ -194,48 +202,48 @@ double FractureFlow::scale_of_row(const Link& link, double conductance, double d
 
 void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& rows) const {
   const double scale = scale_of_row(link, c.value, rows.dt);
-  const double dp = pressure_drop(link), q = flux_.now()[link.point];
-  rows.of_flux[link.point] = scale;
-  rows.drop[link.point] = -scale * c.value * dp;
+  const double dp = pressure_drop(link), q = flux_.now()[link.ridge];
+  rows.of_flux[link.ridge] = scale;
+  rows.drop[link.ridge] = -scale * c.value * dp;
   rows.largest_pressure = std::max(rows.largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
-  rows.by_pressure.emplace_back(link.point, link.first, -scale * c.value);
-  if (link.second != none) rows.by_pressure.emplace_back(link.point, link.second, scale * c.value);
+  rows.by_pressure.emplace_back(link.ridge, link.first, -scale * c.value);
+  if (link.second != none) rows.by_pressure.emplace_back(link.ridge, link.second, scale * c.value);
   for (const auto& [cell, weight] : link.by_density)
-    rows.by_density.emplace_back(link.point, cell, scale * c.value * weight);
+    rows.by_density.emplace_back(link.ridge, cell, scale * c.value * weight);
   // The derivative of scale (q − C dp) by an aperture, where d scale / da = −scale^2 dC/da.
   for (const auto& [cell, by] : c.by_aperture)
-    rows.by_aperture.emplace_back(link.point, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
+    rows.by_aperture.emplace_back(link.ridge, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
   for (const auto& [point, by] : c.by_flux)
-    rows.by_flux.emplace_back(link.point, point, -scale * by * dp - scale * scale * by * (q - c.value * dp));
+    rows.by_flux.emplace_back(link.ridge, point, -scale * by * dp - scale * scale * by * (q - c.value * dp));
 }
 
 /// Adds zero entries wherever any hub would have entries: the hub of a junction may change from one iteration to the
 /// next, and the sparsity pattern must not.
 void FractureFlow::add_pattern(const Link& link, FluxRows& rows) const {
   const Junction& junction = mesh_.junctions[link.junction];
-  for (const int cell : {link.first, link.second}) rows.by_pressure.emplace_back(link.point, cell, 0);
-  for (const auto& [cell, weight] : link.by_density) rows.by_density.emplace_back(link.point, cell, 0);
-  for (const int cell : junction.cells) rows.by_aperture.emplace_back(link.point, cell, 0);
-  for (const int point : junction.points)
-    if (point != link.point) rows.by_flux.emplace_back(link.point, point, 0);
+  for (const int cell : {link.first, link.second}) rows.by_pressure.emplace_back(link.ridge, cell, 0);
+  for (const auto& [cell, weight] : link.by_density) rows.by_density.emplace_back(link.ridge, cell, 0);
+  for (const int cell : junction.cells) rows.by_aperture.emplace_back(link.ridge, cell, 0);
+  for (const int point : junction.ridges)
+    if (point != link.ridge) rows.by_flux.emplace_back(link.ridge, point, 0);
 }
 
 void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const {
   const double scale = scale_of_row(link, flux.conductance.value, rows.dt);
-  double rest = flux_.now()[link.point];
-  rows.of_flux[link.point] = scale;
+  double rest = flux_.now()[link.ridge];
+  rows.of_flux[link.ridge] = scale;
   for (const auto& [point, share] : flux.parts) {
     const double q = flux_.now()[point];
     rest -= share.value * q;
-    rows.drop[link.point] -= scale * share.value * q;
-    rows.by_flux.emplace_back(link.point, point, -scale * share.value);
-    for (const auto& [cell, by] : share.by_aperture) rows.by_aperture.emplace_back(link.point, cell, -scale * by * q);
-    for (const auto& [other, by] : share.by_flux) rows.by_flux.emplace_back(link.point, other, -scale * by * q);
+    rows.drop[link.ridge] -= scale * share.value * q;
+    rows.by_flux.emplace_back(link.ridge, point, -scale * share.value);
+    for (const auto& [cell, by] : share.by_aperture) rows.by_aperture.emplace_back(link.ridge, cell, -scale * by * q);
+    for (const auto& [other, by] : share.by_flux) rows.by_flux.emplace_back(link.ridge, other, -scale * by * q);
   }
   for (const auto& [cell, by] : flux.conductance.by_aperture)
-    rows.by_aperture.emplace_back(link.point, cell, -scale * scale * by * rest);
+    rows.by_aperture.emplace_back(link.ridge, cell, -scale * scale * by * rest);
   for (const auto& [other, by] : flux.conductance.by_flux)
-    rows.by_flux.emplace_back(link.point, other, -scale * scale * by * rest);
+    rows.by_flux.emplace_back(link.ridge, other, -scale * scale * by * rest);
 }
 
 }  // namespace sprekk::fracture_flow

@@ -23,7 +23,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
       flux_(
           context.fields.add(mesh_, {.owner = context.name,
                                      .name = "flux",
-                                     .location = Location::fracture_point,
+                                     .location = Location::ridge,
                                      .role = Role::unknown(BlockKind::interface),
                                      .unit = "m^2/s",
                                      .doc = "Flux along the fractures, from the first to the second cell of a point"})),
@@ -114,8 +114,8 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
     goes_on = false;
     for (int i = 0; i < pressure.size(); ++i) {
       if (known[i]) continue;
-      for (const int point : mesh_.fracture_cells[i].points)
-        for (const int other : mesh_.fracture_points[point].cells)
+      for (const int point : mesh_.fracture_cells[i].ridges)
+        for (const int other : mesh_.ridges[point].cells)
           if (known[other] && !known[i] && mesh_.fracture_cells[other].fracture == mesh_.fracture_cells[i].fracture) {
             pressure[i] = pressure[other];
             known[i] = 1;
@@ -135,30 +135,30 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
 
 void FractureFlow::make_links(const StepTime& step) {
   links_.clear();
-  std::vector<std::pair<int, int>> place_of(mesh_.fracture_points.size(), {none, none});
+  std::vector<std::pair<int, int>> place_of(mesh_.ridges.size(), {none, none});
   for (std::size_t j = 0; j < mesh_.junctions.size(); ++j)
-    for (std::size_t k = 0; k < mesh_.junctions[j].points.size(); ++k)
-      place_of[mesh_.junctions[j].points[k]] = {static_cast<int>(j), static_cast<int>(k)};
-  for (int i = 0; i < static_cast<int>(mesh_.fracture_points.size()); ++i) {
-    const FracturePoint& point = mesh_.fracture_points[i];
+    for (std::size_t k = 0; k < mesh_.junctions[j].ridges.size(); ++k)
+      place_of[mesh_.junctions[j].ridges[k]] = {static_cast<int>(j), static_cast<int>(k)};
+  for (int i = 0; i < static_cast<int>(mesh_.ridges.size()); ++i) {
+    const Ridge& point = mesh_.ridges[i];
     Link link{i, point.cells[0], none, place_of[i].first, place_of[i].second};
-    Point other = point.position;
+    Point other = point.center;
     if (point.cells.size() == 2) {
       link.second = point.cells[1];
       other = mesh_.fracture_cells[link.second].center;
     } else {
-      if (point.kind != FracturePoint::Kind::on_boundary) continue;
+      if (point.kind != Ridge::Kind::on_boundary) continue;
       const auto found = options_.boundary.find(mesh_.side_names[point.side]);
       if (found == options_.boundary.end()) continue;
       Place place = fracture_cell_place(mesh_, link.first);
-      place.x = point.position;
+      place.x = point.center;
       link.boundary_pressure = value_in_step(found->second, place, step);
       check_bound(link.boundary_pressure, options_.boundary_origins.at(mesh_.side_names[point.side]), "the pressure");
     }
     if (!is_in_fracture_cell(link.first) || (link.second != none && !is_in_fracture_cell(link.second))) continue;
     if (!options_.gravity.is_zero())
       link.gravity = options_.fluid_density *
-                     options_.gravity.at({point.position, 0, 0}).dot(mesh_.fracture_cells[link.first].center - other);
+                     options_.gravity.at({point.center, 0, 0}).dot(mesh_.fracture_cells[link.first].center - other);
     links_.push_back(link);
   }
 }
@@ -218,8 +218,8 @@ FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) c
 
 double FractureFlow::given_transmissivity(int cell, int point) const {
   const FractureCell& at = mesh_.fracture_cells[cell];
-  const Point& position = mesh_.fracture_points[point].position;
-  const auto away = [&](int end) { return (mesh_.fracture_points[at.points[end]].position - position).squaredNorm(); };
+  const Point& position = mesh_.ridges[point].center;
+  const auto away = [&](int end) { return (mesh_.ridges[at.ridges[end]].center - position).squaredNorm(); };
   const int end = away(0) < away(1) ? 0 : 1;
   return transmissivity_of_half_[end][cell];
 }
@@ -293,12 +293,12 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
   for (const Link& link : links_) {
     SPREKK_ASSERT(is_index(link.first, count), link.first, count);
     SPREKK_ASSERT(link.second == none || is_index(link.second, count), link.second, count);
-    SPREKK_ASSERT(is_index(link.point, flux_.size()), link.point, flux_.size());
-    outflow.emplace_back(link.first, link.point, step.dt);
+    SPREKK_ASSERT(is_index(link.ridge, flux_.size()), link.ridge, flux_.size());
+    outflow.emplace_back(link.first, link.ridge, step.dt);
     if (link.second != none)
-      outflow.emplace_back(link.second, link.point, -step.dt);
+      outflow.emplace_back(link.second, link.ridge, -step.dt);
     else
-      leaving[link.first] += step.dt * flux_.now()[link.point];
+      leaving[link.first] += step.dt * flux_.now()[link.ridge];
   }
   SparseMatrix divergence(count, flux_.size());
   divergence.setFromTriplets(outflow.begin(), outflow.end());
@@ -326,7 +326,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
     for (const auto& [cell, share] : prescribed_points_[k].shares)
       sums[3 * cell + 1] += step.dt * share * let_in_at_points_->now()[static_cast<Eigen::Index>(k)];
   for (const Link& link : links_)
-    if (link.second == none) sums[3 * link.first + 2] += step.dt * flux_.now()[link.point];
+    if (link.second == none) sums[3 * link.first + 2] += step.dt * flux_.now()[link.ridge];
   cumulative_.set(std::move(sums));
   let_in_of_step_ = let_in_;
 }

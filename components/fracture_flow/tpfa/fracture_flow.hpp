@@ -122,10 +122,10 @@ class FractureFlow : public Component,
   HydraulicAperture hydraulic_aperture(int cell) const;
   /// A point through which fluid can flow.
   struct Link {
-    int point;
+    int ridge;
     int first, second;             ///< cells; second is none at an open end with a prescribed pressure
     int junction;                  ///< index into Mesh::junctions where fractures meet, else none
-    int place;                     ///< among the points of the junction
+    int place;                     ///< among the ridges of the junction
     double boundary_pressure = 0;  ///< Pa, of an open end
     double gravity = 0;            ///< rho g·(x_first − x_second), Pa
     /// What the excess of the density over the constant one adds to the difference of pressures: a factor for each cell
@@ -146,6 +146,7 @@ class FractureFlow : public Component,
   };
   std::array<HydraulicHalf, 2> halves_by_opening(const Link& link) const;
   std::vector<JunctionFluxes> junction_fluxes() const;
+  double half_length(int cell, int ridge) const;
   std::vector<JunctionFluxes::Half> given_halves(const Junction& junction) const;
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   /// Notes fractures that end on a side where the rock is open, if the scene says nothing about their ends.

@@ -22,11 +22,12 @@ Conductance FractureFlow::inertia(const Link& link) const {
   for (const int i : {0, 1}) {
     const int cell = i == 0 ? link.first : link.second;
     if (cell == none) continue;
-    const double factor = inertia_[cell] * options_.fluid_density * 0.5 * mesh_.fracture_cells[cell].measure;
+    const double width = mesh_.ridges[link.ridge].measure;
+    const double factor = inertia_[cell] * options_.fluid_density * half_length(cell, link.ridge) / width;
     HydraulicAperture hydraulic = halves[i].hydraulic;
     if (!is_by_opening) hydraulic = hydraulic_aperture(cell);
     if (options_.is_constant())
-      hydraulic = {std::cbrt(12 * viscosity_[cell] * transmissivity(cell, link.point).value), 0};
+      hydraulic = {std::cbrt(12 * viscosity_[cell] * transmissivity(cell, link.ridge).value), 0};
     const double own = factor / (hydraulic.value * hydraulic.value);
     sum += own;
     const double by = -2 * own / hydraulic.value * hydraulic.by_aperture;
@@ -42,16 +43,16 @@ Conductance FractureFlow::inertia(const Link& link) const {
 
 void FractureFlow::add_inertia(const Link& link, const Conductance& c, FluxRows& rows) const {
   if (c.value == 0) return;
-  const double q = flux_.now()[link.point], scale = rows.of_flux[link.point];
-  const auto [size, by_flux] = size_of_flux(q, is_held() ? held_flux_[link.point] : q);
+  const double q = flux_.now()[link.ridge], scale = rows.of_flux[link.ridge];
+  const auto [size, by_flux] = size_of_flux(q, is_held() ? held_flux_[link.ridge] : q);
   const Conductance of_halves = inertia(link);
-  rows.drop[link.point] += scale * c.value * of_halves.value * size * q;
-  rows.by_flux.emplace_back(link.point, link.point, scale * c.value * of_halves.value * (size + by_flux * q));
+  rows.drop[link.ridge] += scale * c.value * of_halves.value * size * q;
+  rows.by_flux.emplace_back(link.ridge, link.ridge, scale * c.value * of_halves.value * (size + by_flux * q));
   for (const auto& [cell, by] : of_halves.by_aperture)
-    rows.by_aperture.emplace_back(link.point, cell, scale * c.value * by * size * q);
+    rows.by_aperture.emplace_back(link.ridge, cell, scale * c.value * by * size * q);
   // The scale of the row depends on C as well: d scale / da = −scale^2 dC/da.
   for (const auto& [cell, by] : c.by_aperture)
-    rows.by_aperture.emplace_back(link.point, cell, scale * (1 - scale * c.value) * by * of_halves.value * size * q);
+    rows.by_aperture.emplace_back(link.ridge, cell, scale * (1 - scale * c.value) * by * of_halves.value * size * q);
 }
 
 /// The half cells at a junction have the conductance t/(1 + t I |q|), with q what flows out of the cell.
@@ -61,7 +62,7 @@ void FractureFlow::slow_down(const Junction& junction, std::vector<JunctionFluxe
   int place = 0;
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j, ++place) {
-      const int point = junction.points[place];
+      const int point = junction.ridges[place];
       out[i] += flux_.now()[point];
       out[j] -= flux_.now()[point];
       if (!is_held()) continue;
@@ -72,9 +73,10 @@ void FractureFlow::slow_down(const Junction& junction, std::vector<JunctionFluxe
     JunctionFluxes::Half& half = halves[i];
     if (half.value == 0) continue;
     const int cell = junction.cells[i];
-    const double length = 0.5 * mesh_.fracture_cells[cell].measure;
+    const double length = half_length(cell, junction.ridges.front());
     const double h = std::cbrt(12 * viscosity_[cell] * length * half.value);
-    const double inertia = inertia_[cell] * options_.fluid_density * length / (h * h);
+    const double width = mesh_.ridges[junction.ridges.front()].measure;
+    const double inertia = inertia_[cell] * options_.fluid_density * length / width / (h * h);
     const auto [size, by_outflow] = size_of_flux(out[i], held[i]);
     const double excess = half.value * inertia * size, slower = 1 / (1 + excess);
     half.by_outflow = -half.value * half.value * inertia * by_outflow * slower * slower;

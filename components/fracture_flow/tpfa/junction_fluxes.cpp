@@ -16,7 +16,7 @@ JunctionFluxes::JunctionFluxes(const Junction& junction, std::vector<Half> halve
 
 int JunctionFluxes::point_between(int one, int other) const {
   const auto found = std::find(ends_.begin(), ends_.end(), std::pair(std::min(one, other), std::max(one, other)));
-  return junction_.points[found - ends_.begin()];
+  return junction_.ridges[found - ends_.begin()];
 }
 
 /// The share of the flux from the hub to `to` in the flux from `from` to `to`.
@@ -34,8 +34,8 @@ JunctionFluxes::Flux::Part JunctionFluxes::part(int from, int to, double sign) c
 void JunctionFluxes::add_outflow(int place, double derivative, std::vector<std::pair<int, double>>& by_flux) const {
   if (derivative == 0) return;
   for (std::size_t k = 0; k < ends_.size(); ++k) {
-    if (ends_[k].first == place) by_flux.emplace_back(junction_.points[k], derivative);
-    if (ends_[k].second == place) by_flux.emplace_back(junction_.points[k], -derivative);
+    if (ends_[k].first == place) by_flux.emplace_back(junction_.ridges[k], derivative);
+    if (ends_[k].second == place) by_flux.emplace_back(junction_.ridges[k], -derivative);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -31,9 +31,8 @@ void FractureFlow::note_input(Notes& notes) const {
                      key, lost, cells.size()));
   }
   for (const auto& [side, origin] : options_.boundary_origins) {
-    const bool has_end = std::any_of(mesh_.fracture_points.begin(), mesh_.fracture_points.end(), [&](const auto& p) {
-      return p.kind == FracturePoint::Kind::on_boundary && mesh_.side_names[p.side] == side &&
-             is_in_fracture_cell(p.cells[0]);
+    const bool has_end = std::any_of(mesh_.ridges.begin(), mesh_.ridges.end(), [&](const auto& p) {
+      return p.kind == Ridge::Kind::on_boundary && mesh_.side_names[p.side] == side && is_in_fracture_cell(p.cells[0]);
     });
     if (!has_end)
       note("boundary." + side, origin,
@@ -68,8 +67,8 @@ void FractureFlow::note_input(Notes& notes) const {
 
 void FractureFlow::note_ends(Notes& notes) const {
   if (!rock_fluid_) return;
-  for (const FracturePoint& point : mesh_.fracture_points) {
-    if (point.kind != FracturePoint::Kind::on_boundary || !rock_fluid_->is_open(point.side)) continue;
+  for (const Ridge& point : mesh_.ridges) {
+    if (point.kind != Ridge::Kind::on_boundary || !rock_fluid_->is_open(point.side)) continue;
     const int cell = point.cells[0];
     const std::string& side = mesh_.side_names[point.side];
     const bool holds_pressure =
@@ -116,8 +115,8 @@ void FractureFlow::note_crossings(Notes& notes) const {
             fmt::format("fluid of '{}' in the fracture '{}' passes '{}' at {} as if '{}' had no walls (what fills "
                         "the crossing is not said) write 'crossings: {{NAME: {{between: [{}, {}], through: {}}}}}' "
                         "in '{}', or give it a permeability",
-                        name(), passing, passed, to_text(mesh_.fracture_points[junction.points.front()].position),
-                        passed, passed, passing, passed, name()),
+                        name(), passing, passed, to_text(mesh_.ridges[junction.ridges.front()].center), passed, passed,
+                        passing, passed, name()),
             1 - through_wall / halves[i].value);
       }
   }

@@ -8,6 +8,7 @@
 
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/ridge_distance.hpp"
 
 namespace sprekk::fracture_flow {
 namespace {
@@ -19,26 +20,25 @@ constexpr double equally_near = 2e-6;  // of half a cell: so far beyond its end 
 FractureFlow::Spot FractureFlow::spot(int cell, const Point& at) const {
   SPREKK_EXPECT(is_index(cell, mesh_.fracture_cell_count()), cell, mesh_.fracture_cell_count());
   const FractureCell& home = mesh_.fracture_cells[cell];
-  const auto end = [&](int k) -> const Point& { return mesh_.fracture_points[home.points[k]].position; };
+  const auto end = [&](int k) -> const Point& { return mesh_.ridges[home.ridges[k]].center; };
   const double off = (at - home.center).dot((end(1) - end(0)).normalized());
-  const int nearer = home.points[off < 0 ? 0 : 1];
-  if (mesh_.fracture_points[nearer].cells.size() == 1) return {nearer, 0};
-  return {nearer, std::min(std::abs(off) / (0.5 * home.measure), 1 + equally_near)};
+  const int nearer = home.ridges[off < 0 ? 0 : 1];
+  if (mesh_.ridges[nearer].cells.size() == 1) return {nearer, 0};
+  return {nearer, std::min(std::abs(off) / distance_to_ridge(mesh_, cell, nearer), 1 + equally_near)};
 }
 
 Point FractureFlow::point_at(int cell, const Point& at) const {
   const Spot spot = this->spot(cell, at);
   const Point& centre = mesh_.fracture_cells[cell].center;
-  return centre + spot.to_end * (mesh_.fracture_points[spot.end].position - centre);
+  return centre + spot.to_end * (mesh_.ridges[spot.end].center - centre);
 }
 
 /// The conductances from the centres of the cells that meet at an end of a cell to this end.
 std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home) const {
-  const FracturePoint& end = mesh_.fracture_points[point];
-  const auto half_length = [&](int cell) { return 0.5 * mesh_.fracture_cells[cell].measure; };
+  const Ridge& end = mesh_.ridges[point];
   std::vector<HalfCell> halves;
-  if (end.kind == FracturePoint::Kind::junction) {
-    const auto is_here = [point](const Junction& junction) { return std::ranges::count(junction.points, point) > 0; };
+  if (end.kind == Ridge::Kind::junction) {
+    const auto is_here = [point](const Junction& junction) { return std::ranges::count(junction.ridges, point) > 0; };
     const auto junction = std::ranges::find_if(mesh_.junctions, is_here);
     const std::vector<JunctionFluxes::Half> own =
         options_.is_constant() ? given_halves(*junction) : halves_by_opening(*junction);
@@ -58,7 +58,7 @@ std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home)
     for (int k = 0; k < 2; ++k) {
       const int cell = end.cells[k];
       const auto [a, by_present] = values[k].hydraulic;
-      HalfCell half{cell, a * a * a / (12 * viscosity_[cell] * half_length(cell)), {}};
+      HalfCell half{cell, a * a * a / (12 * viscosity_[cell] * half_length(cell, point)), {}};
       for (int i = 0; i < 2; ++i)
         half.by_aperture.emplace_back(end.cells[i], 3 * half.conductance / a * by_present * values[k].by_aperture[i]);
       halves.push_back(std::move(half));
@@ -66,13 +66,13 @@ std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home)
   } else {
     for (const int cell : end.cells) {
       const auto [value, by_aperture] = transmissivity(cell, point);
-      HalfCell half{cell, value / half_length(cell), {}};
-      if (by_aperture != 0) half.by_aperture.emplace_back(cell, by_aperture / half_length(cell));
+      HalfCell half{cell, value / half_length(cell, point), {}};
+      if (by_aperture != 0) half.by_aperture.emplace_back(cell, by_aperture / half_length(cell, point));
       halves.push_back(std::move(half));
     }
   }
   for (HalfCell& half : halves)
-    if (end.kind != FracturePoint::Kind::junction) {
+    if (end.kind != Ridge::Kind::junction) {
       half.own = half.conductance;
       half.own_by_aperture = half.by_aperture;
     }

@@ -13,11 +13,11 @@ void FractureFlow::weigh_links() {
   for (Link& link : links_) {
     link.by_density.clear();
     link.excess_at_end = 0;
-    const Point& position = mesh_.fracture_points[link.point].position;
+    const Point& position = mesh_.ridges[link.ridge].center;
     const Point gravity = options_.gravity.at({position, 0, 0});
     if (link.second == none) {
       const double weight = gravity.dot(mesh_.fracture_cells[link.first].center - position);
-      const std::optional<double> at_end = density_->at_boundary(link.point, link.boundary_pressure);
+      const std::optional<double> at_end = density_->at_boundary(link.ridge, link.boundary_pressure);
       if (at_end) link.excess_at_end = 0.5 * weight * (*at_end - options_.fluid_density);
       link.by_density.emplace_back(link.first, at_end ? 0.5 * weight : weight);
       continue;

@@ -7,8 +7,8 @@
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
-#include "framework/mesh/planar.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/plane/point_location.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::fracture_flow {
@@ -63,7 +63,7 @@ void FractureFlow::check_points_apart() const {
     const int cell = cells_of(given.where).front();
     const auto [end, to_end] = spot(cell, *given.where.at);
     if (to_end < at_centre) continue;
-    const Point& position = mesh_.fracture_points[end].position;
+    const Point& position = mesh_.ridges[end].center;
     for (const Taken& other : taken)
       if ((other.end - position).norm() < at_centre * mesh_.fracture_cells[cell].measure)
         throw InputError(given.where.origin, "'" + name + "' prescribes a pressure where there is one",
@@ -261,9 +261,9 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
   for (const auto& [side, pressure] : options_.boundary) {
     double outflow = 0;  // fluxes are whole on every process
     for (const Link& link : links_) {
-      const int of_link = mesh_.fracture_points[link.point].side;
+      const int of_link = mesh_.ridges[link.ridge].side;
       if (link.second == none && of_link != none && mesh_.side_names[of_link] == side)
-        outflow += flux_.now()[link.point];
+        outflow += flux_.now()[link.ridge];
     }
     quantities.push_back({name() + "." + side + ".outflow", "m^2/s", outflow});
   }

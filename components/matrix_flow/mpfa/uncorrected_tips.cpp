@@ -8,7 +8,7 @@
 #include "components/matrix_flow/mpfa/tip_flow.hpp"
 #include "framework/discretization/end_surroundings.hpp"
 #include "framework/discretization/ends_nearby.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "components/poromechanics/check_conditions.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -5,7 +5,7 @@
 #include "components/poromechanics/mpsa/rediscretize.hpp"
 #include "components/poromechanics/mpsa/uncorrected_tips.hpp"
 #include "components/poromechanics/rock.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::poromechanics {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "framework/mesh/cell_edges.hpp"
+#include "framework/mesh/face_table.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/meshing/conforming/outer_boundary.hpp"
 
@@ -30,11 +30,11 @@ class OneNode {
 };
 
 /// Per line its edge and the other one at the same place, or nothing if the group is no cut.
-std::vector<std::array<int, 2>> pairs_of(const CurveGroup& group, const CellEdges& edges, const OuterBoundary& boundary,
+std::vector<std::array<int, 2>> pairs_of(const CurveGroup& group, const FaceTable& edges, const OuterBoundary& boundary,
                                          const std::map<int, std::set<std::string>>& groups_of_edge) {
   std::vector<std::array<int, 2>> pairs;
   for (const auto& [a, b] : group.lines) {
-    const int edge = edges.find(a, b);
+    const int edge = edges.find({a, b});
     const int other = edge == none || !edges.is_outer(edge) ? none : boundary.twin(edge);
     if (other == none) return {};
     const auto groups = groups_of_edge.find(other);
@@ -52,12 +52,12 @@ void remove_repeated(std::vector<std::array<int, 2>>& lines) {
 }  // namespace
 
 bool glue_cuts(RawMesh& mesh, std::vector<CurveGroup>& groups) {
-  const CellEdges edges(mesh.nodes, mesh.cells);
+  const FaceTable edges(mesh.nodes, mesh.cells);
   const OuterBoundary boundary(mesh.nodes, mesh.cells, edges);
   std::map<int, std::set<std::string>> groups_of_edge;
   for (const CurveGroup& group : groups)
     for (const auto& [a, b] : group.lines)
-      if (const int edge = edges.find(a, b); edge != none) groups_of_edge[edge].insert(group.name);
+      if (const int edge = edges.find({a, b}); edge != none) groups_of_edge[edge].insert(group.name);
   OneNode one(mesh.nodes.size());
   std::vector<CurveGroup*> cuts;
   for (CurveGroup& group : groups) {

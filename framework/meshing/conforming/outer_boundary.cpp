@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
-#include "framework/mesh/cell_shape.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
 
 namespace sprekk {
 namespace {
@@ -15,14 +15,14 @@ constexpr double same_place = 1e-9;
 /// A gap that is narrower is an error of coordinates and not a part of the domain, of the shorter edge at it.
 constexpr double least_gap = 1e-3;
 
-std::vector<int> outer_edges(const CellEdges& edges) {
+std::vector<int> outer_edges(const FaceTable& edges) {
   std::vector<int> outer;
   for (int edge = 0; edge < edges.size(); ++edge)
     if (edges.is_outer(edge)) outer.push_back(edge);
   return outer;
 }
 
-std::vector<Segment> segments_of(const std::vector<int>& outer, const CellEdges& edges,
+std::vector<Segment> segments_of(const std::vector<int>& outer, const FaceTable& edges,
                                  const std::vector<Point>& nodes) {
   std::vector<Segment> segments;
   for (const int edge : outer) segments.push_back({nodes[edges.nodes(edge)[0]], nodes[edges.nodes(edge)[1]]});
@@ -31,7 +31,7 @@ std::vector<Segment> segments_of(const std::vector<int>& outer, const CellEdges&
 
 }  // namespace
 
-OuterBoundary::OuterBoundary(const std::vector<Point>& nodes, const std::vector<Ring>& cells, const CellEdges& edges)
+OuterBoundary::OuterBoundary(const std::vector<Point>& nodes, const std::vector<Ring>& cells, const FaceTable& edges)
     : nodes_(nodes),
       cells_(cells),
       edges_(edges),

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/face_table.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/search/segment_tree.hpp"
 
 namespace sprekk {
@@ -33,7 +33,7 @@ class OuterBoundary {
     double width = 0;  ///< m, of a gap
   };
 
-  OuterBoundary(const std::vector<Point>& nodes, const std::vector<Ring>& cells, const CellEdges& edges);
+  OuterBoundary(const std::vector<Point>& nodes, const std::vector<Ring>& cells, const FaceTable& edges);
 
   /// Empty where the boundary touches itself in a node: there it forms no loops.
   std::vector<Loop> loops() const;
@@ -53,7 +53,7 @@ class OuterBoundary {
 
   const std::vector<Point>& nodes_;
   const std::vector<Ring>& cells_;
-  const CellEdges& edges_;
+  const FaceTable& edges_;
   std::vector<int> outer_;         ///< edges
   std::vector<Segment> segments_;  ///< of outer_
   double extent_ = 0, round_off_ = 0;

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "framework/config/input_error.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/conforming/outer_boundary.hpp"
 
 namespace sprekk {
@@ -50,7 +50,7 @@ std::string text_of(const std::vector<OuterBoundary::Contact>& contacts) {
 
 }  // namespace
 
-std::vector<std::string> require_conforming(const RawMesh& mesh, const CellEdges& edges,
+std::vector<std::string> require_conforming(const RawMesh& mesh, const FaceTable& edges,
                                             const std::vector<bool>& has_group) {
   const OuterBoundary boundary(mesh.nodes, mesh.cells, edges);
   const std::vector<OuterBoundary::Contact> contacts = boundary.contacts();

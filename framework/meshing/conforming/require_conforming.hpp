@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/mesh/cell_edges.hpp"
+#include "framework/mesh/face_table.hpp"
 #include "framework/mesh/raw_mesh.hpp"
 
 namespace sprekk {
@@ -13,7 +13,7 @@ namespace sprekk {
 /// own, a node lies on the inside of an edge, cells overlap or leave a gap that is far narrower than their edges, or a
 /// few cells are missing: a hole of few edges of which none `has_group`. Returns a note for each larger hole without a
 /// group. The cells are counter-clockwise. Takes time in proportion to n log n of the number n of outer edges.
-std::vector<std::string> require_conforming(const RawMesh& mesh, const CellEdges& edges,
+std::vector<std::string> require_conforming(const RawMesh& mesh, const FaceTable& edges,
                                             const std::vector<bool>& has_group);
 
 }  // namespace sprekk

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/geometry.hpp"
 
 namespace sprekk {

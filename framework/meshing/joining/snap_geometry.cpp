@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/joining/drop_short_segments.hpp"
 #include "framework/meshing/joining/join_lines.hpp"
 

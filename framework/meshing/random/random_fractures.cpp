@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/distinct_text.hpp"
 #include "framework/meshing/random/random_laws.hpp"
 

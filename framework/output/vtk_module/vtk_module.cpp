@@ -1,5 +1,6 @@
 #include "framework/output/vtk_module/vtk_module.hpp"
 
+#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -72,18 +73,35 @@ void add_arrays(vtkFieldData& data, const std::vector<GridData::Array>& arrays) 
   }
 }
 
+int type_of(int dimension, std::int64_t points) {
+  if (dimension == 3) return points == 4 ? VTK_TETRA : points == 6 ? VTK_WEDGE : VTK_HEXAHEDRON;
+  return dimension == 1 ? VTK_LINE : points == 3 ? VTK_TRIANGLE : VTK_QUAD;
+}
+
+/// Between the order of gmsh and that of VTK, in which the normal of the first triangle of a wedge points out of it: of
+/// the last six points.
+void turn_wedge(std::vector<std::int64_t>& points) {
+  const auto corner = points.end() - 6;
+  std::swap(corner[1], corner[2]);
+  std::swap(corner[4], corner[5]);
+}
+
 void set_cells(vtkUnstructuredGrid& grid, const GridData& data) {
   vtkNew<vtkTypeInt64Array> starts, points;
   vtkNew<vtkUnsignedCharArray> types;
   starts->InsertNextValue(0);
+  std::vector<std::int64_t> ordered;
+  ordered.reserve(data.cell_points.size());
   std::int64_t first = 0;
   for (const std::int64_t end : data.cell_ends) {
-    const std::int64_t count = end - std::exchange(first, end);
+    ordered.insert(ordered.end(), data.cell_points.begin() + first, data.cell_points.begin() + end);
+    const int type = type_of(data.cell_dimension, end - std::exchange(first, end));
+    if (type == VTK_WEDGE) turn_wedge(ordered);
     starts->InsertNextValue(end);
-    types->InsertNextValue(count == 2 ? VTK_LINE : count == 3 ? VTK_TRIANGLE : VTK_QUAD);
+    types->InsertNextValue(type);
   }
-  points->SetNumberOfValues(static_cast<vtkIdType>(data.cell_points.size()));
-  std::copy(data.cell_points.begin(), data.cell_points.end(), points->GetPointer(0));
+  points->SetNumberOfValues(static_cast<vtkIdType>(ordered.size()));
+  std::copy(ordered.begin(), ordered.end(), points->GetPointer(0));
   vtkNew<vtkCellArray> cells;
   cells->SetData(starts, points);
   grid.SetCells(types, cells);
@@ -113,7 +131,9 @@ class Module final : public VtkModule {
       grid.GetCellPoints(i, corners);
       for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) data.cell_points.push_back(corners->GetId(k));
       data.cell_ends.push_back(static_cast<std::int64_t>(data.cell_points.size()));
+      if (grid.GetCellType(i) == VTK_WEDGE) turn_wedge(data.cell_points);
     }
+    if (data.cell_count() > 0) data.cell_dimension = grid.GetCell(0)->GetCellDimension();
     data.on_cells = arrays_of(*grid.GetCellData());
     data.on_points = arrays_of(*grid.GetPointData());
     return data;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "components/fine_fracture/growth/arc.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {

@@ -69,7 +69,7 @@ TEST(FracturePath, HasTheEndsOfACellThatTurnsHoweverSmallItsBend) {
     const Mesh mesh = rock_with({{first, Point(0.6, 0.5), Point(1, 0.5), last}});
     const Fracture& cells = mesh.fractures[0];
     const auto end_of = [&](int cell, int end) {
-      return mesh.fracture_points[mesh.fracture_cells[cells.first_cell + cell].points[end]].position;
+      return mesh.ridges[mesh.fracture_cells[cells.first_cell + cell].ridges[end]].center;
     };
     const FracturePath path = fracture_path(mesh, 0, {}, TipPath{{Point(1.2, 0.5 - 0.2 * bend)}}, {true}, {true});
     const int n = cells.cell_count;

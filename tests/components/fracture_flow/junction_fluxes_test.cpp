@@ -11,7 +11,7 @@ namespace {
 Junction junction_of(int cells) {
   Junction junction;
   for (int i = 0; i < cells; ++i) junction.cells.push_back(10 + i);
-  for (int k = 0; k < cells * (cells - 1) / 2; ++k) junction.points.push_back(100 + k);
+  for (int k = 0; k < cells * (cells - 1) / 2; ++k) junction.ridges.push_back(100 + k);
   return junction;
 }
 

@@ -148,7 +148,7 @@ double energy_left(RandomRock& rock, const FluxOperators& operators) {
     system(in, row) += dt * length;
     capacity[in] = storage * length;
   }
-  for (const FracturePoint& point : mesh.fracture_points)
+  for (const Ridge& point : mesh.ridges)
     if (point.cells.size() == 2)
       for (int i = 0; i < 2; ++i) {
         system(cells + walls + point.cells[i], cells + walls + point.cells[i]) += dt * along;

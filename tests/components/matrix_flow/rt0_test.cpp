@@ -102,7 +102,7 @@ Mesh mesh_of(const std::vector<Point>& corners) {
   raw.regions = {0};
   raw.region_names = {"rock"};
   raw.side_names = {"around"};
-  for (int k = 0; k < count; ++k) raw.boundary_edges.push_back({{k, (k + 1) % count}, 0});
+  for (int k = 0; k < count; ++k) raw.boundary_faces.push_back({{k, (k + 1) % count}, 0});
   return build_mesh(raw);
 }
 

@@ -24,10 +24,10 @@ Mesh equilateral(int n) {
     }
   raw.regions.assign(raw.cells.size(), 0);
   for (int i = 0; i < n; ++i) {
-    raw.boundary_edges.push_back({{node(0, i), node(0, i + 1)}, 0});
-    raw.boundary_edges.push_back({{node(n, i), node(n, i + 1)}, 0});
-    raw.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 0});
-    raw.boundary_edges.push_back({{node(i, n), node(i + 1, n)}, 0});
+    raw.boundary_faces.push_back({{node(0, i), node(0, i + 1)}, 0});
+    raw.boundary_faces.push_back({{node(n, i), node(n, i + 1)}, 0});
+    raw.boundary_faces.push_back({{node(i, 0), node(i + 1, 0)}, 0});
+    raw.boundary_faces.push_back({{node(i, n), node(i + 1, n)}, 0});
   }
   return build_mesh(raw);
 }

@@ -26,7 +26,7 @@ Mesh corner(double angle, bool is_one_side, double length = 1, double turn = 0) 
   raw.regions = {0};
   raw.region_names = {"rock"};
   raw.side_names = {"first", "second", "free"};
-  raw.boundary_edges = {{{0, 1}, 0}, {{1, 2}, 2}, {{2, 0}, is_one_side ? 0 : 1}};
+  raw.boundary_faces = {{{0, 1}, 0}, {{1, 2}, 2}, {{2, 0}, is_one_side ? 0 : 1}};
   return build_mesh(raw);
 }
 

@@ -41,10 +41,10 @@ struct Ring {
       for (int i = 0; i < n; ++i) raw.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
     raw.regions.assign(raw.cells.size(), 0);
     for (int i = 0; i < n; ++i) {
-      raw.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 0});
-      raw.boundary_edges.push_back({{node(n, i), node(n, i + 1)}, 1});
-      raw.boundary_edges.push_back({{node(i, n), node(i + 1, n)}, 2});
-      raw.boundary_edges.push_back({{node(0, i), node(0, i + 1)}, 3});
+      raw.boundary_faces.push_back({{node(i, 0), node(i + 1, 0)}, 0});
+      raw.boundary_faces.push_back({{node(n, i), node(n, i + 1)}, 1});
+      raw.boundary_faces.push_back({{node(i, n), node(i + 1, n)}, 2});
+      raw.boundary_faces.push_back({{node(0, i), node(0, i + 1)}, 3});
     }
     return build_mesh(raw);
   }

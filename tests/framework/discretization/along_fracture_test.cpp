@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/plane/point_location.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::test {
@@ -51,7 +51,7 @@ TEST(AlongFracture, IsExactForQuadraticValuesAlsoAroundACorner) {
   for (int cell = 2; cell + 2 < mesh.fracture_cell_count(); ++cell)
     for (const double part : {-0.5, -0.3, 0.0, 0.21, 0.5}) {
       const FractureCell& home = mesh.fracture_cells[cell];
-      const Point along = mesh.fracture_points[home.points[1]].position - mesh.fracture_points[home.points[0]].position;
+      const Point along = mesh.ridges[home.ridges[1]].center - mesh.ridges[home.ridges[0]].center;
       const double s = at[cell] + part * home.measure;
       EXPECT_NEAR(value(mesh, home.center + part * along, values), 2 - s + 3 * s * s, 1e-12) << cell << ", " << part;
     }
@@ -66,7 +66,7 @@ TEST(AlongFracture, IsContinuousAndHasTheValueOfTheCellAtItsCentre) {
   for (int i = 0; i + 1 < mesh.fracture_cell_count(); ++i) {
     const FractureCell& one = mesh.fracture_cells[i];
     const FractureCell& next = mesh.fracture_cells[i + 1];
-    const Point node = mesh.fracture_points[one.points[1]].position;
+    const Point node = mesh.ridges[one.ridges[1]].center;
     constexpr double off = 1e-4;  // farther than what counts as equally near
     const Point before = node + off * (one.center - node), after = node + off * (next.center - node);
     EXPECT_NEAR(value(mesh, before, values), value(mesh, after, values), 20 * off) << i;
@@ -76,8 +76,7 @@ TEST(AlongFracture, IsContinuousAndHasTheValueOfTheCellAtItsCentre) {
 TEST(AlongFracture, HasTheValueOfTheCellBeyondTheLastCentre) {
   const Mesh mesh = bent();
   const FractureCell& last = mesh.fracture_cells.back();
-  const auto weights =
-      along_fracture(mesh, mesh.fracture_cell_count() - 1, mesh.fracture_points[last.points[1]].position);
+  const auto weights = along_fracture(mesh, mesh.fracture_cell_count() - 1, mesh.ridges[last.ridges[1]].center);
   ASSERT_EQ(weights.size(), 1);
   EXPECT_EQ(weights[0].second, 1);
 }
@@ -89,7 +88,7 @@ TEST(AlongFracture, DoesNotCrossAJunction) {
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
     for (const double part : {-0.4, 0.4}) {
-      const Point along = mesh.fracture_points[cell.points[1]].position - mesh.fracture_points[cell.points[0]].position;
+      const Point along = mesh.ridges[cell.ridges[1]].center - mesh.ridges[cell.ridges[0]].center;
       double sum = 0;
       for (const auto& [other, weight] : along_fracture(mesh, i, cell.center + part * along)) {
         sum += weight;

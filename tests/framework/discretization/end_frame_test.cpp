@@ -105,7 +105,7 @@ TEST(EndOfFracture, HasAnglesWithinHalfATurnInObtuseCells) {
         raw.region_names = {"rock"};
         raw.side_names = {"outside"};
         for (const auto& ends : {std::array{1, 2}, std::array{2, 3}, std::array{3, 1}})
-          raw.boundary_edges.push_back({ends, 0});
+          raw.boundary_faces.push_back({ends, 0});
         raw.fractures = {{"crack", {1, 0}}};
         const Mesh mesh = build_mesh(raw);
         int end = none;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 

@@ -75,7 +75,7 @@ RawMesh reversed(RawMesh raw) {
   std::ranges::reverse(raw.nodes);
   for (Ring& cell : raw.cells)
     for (int& node : cell) node = other(node);
-  for (RawMesh::BoundaryEdge& edge : raw.boundary_edges)
+  for (RawMesh::BoundaryFace& edge : raw.boundary_faces)
     for (int& node : edge.nodes) node = other(node);
   for (RawMesh::Chain& chain : raw.fractures)
     for (int& node : chain.nodes) node = other(node);

@@ -7,7 +7,7 @@
 #include <complex>
 #include <functional>
 
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/plane/point_location.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::test {
@@ -58,9 +58,9 @@ Mesh strip(int rows, double turn, bool triangles) {
     }
   raw.regions.assign(raw.cells.size(), 0);
   for (int j = 0; j < rows; ++j)
-    for (const int i : {0, columns}) raw.boundary_edges.push_back({{node(i, j), node(i, j + 1)}, 0});
+    for (const int i : {0, columns}) raw.boundary_faces.push_back({{node(i, j), node(i, j + 1)}, 0});
   for (int i = 0; i < columns; ++i)
-    for (const int j : {0, rows}) raw.boundary_edges.push_back({{node(i, j), node(i + 1, j)}, 0});
+    for (const int j : {0, rows}) raw.boundary_faces.push_back({{node(i, j), node(i + 1, j)}, 0});
   return build_mesh(raw);
 }
 

@@ -31,7 +31,7 @@ TEST(Field, HasABlockThatFitsItsPlaceAndItsComponents) {
   EXPECT_NO_THROW(Field(spec(cell, 3, Role::derived()), 4));
   EXPECT_THROW(Field(spec(cell, 1, Role::unknown(BlockKind::bulk_elastic)), 4), std::logic_error);
   EXPECT_THROW(Field(spec(cell, 2, Role::unknown(BlockKind::bulk_elliptic)), 4), std::logic_error);
-  for (const Location on_fractures : {fracture_cell, fracture_point, wall})
+  for (const Location on_fractures : {fracture_cell, ridge, wall})
     EXPECT_THROW(Field(spec(on_fractures, 1, Role::input(BlockKind::bulk_elliptic)), 4), std::logic_error);
 }
 

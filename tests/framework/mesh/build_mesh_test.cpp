@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "framework/mesh/cell_edges.hpp"
+#include "framework/mesh/face_table.hpp"
 #include "framework/meshing/fracture_networks.hpp"
 #include "framework/meshing/structured_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using Kind = FracturePoint::Kind;
+using Kind = Ridge::Kind;
 
 /// The box [0, 8] x [0, 8] in unit squares, with fractures along its lines.
 RawMesh squares(const std::vector<FractureGeometry>& fractures) {
@@ -45,9 +45,9 @@ TEST(BuildMesh, SplitsInnerFractureBetweenItsTips) {
   EXPECT_EQ(mesh.face_count(), unsplit_faces + 4);
   EXPECT_EQ(euler_characteristic(mesh), 0);  // a disc with a hole
   EXPECT_EQ(component_count(mesh), 1);
-  EXPECT_EQ(mesh.fracture_points.front().kind, Kind::tip);
-  EXPECT_EQ(mesh.fracture_points[1].kind, Kind::inside);
-  EXPECT_EQ(mesh.fracture_points.back().kind, Kind::tip);
+  EXPECT_EQ(mesh.ridges.front().kind, Kind::tip);
+  EXPECT_EQ(mesh.ridges[1].kind, Kind::inside);
+  EXPECT_EQ(mesh.ridges.back().kind, Kind::tip);
   // Along +x the plus side is above, and the normal points down.
   EXPECT_EQ(mesh.fracture_cells[0].normal, Point(0, -1));
   EXPECT_GT(mesh.cell_center[mesh.face_cells[mesh.fracture_cells[0].faces[0]][0]].y(), 4);
@@ -67,8 +67,8 @@ TEST(BuildMesh, SplitsEndOnBoundary) {
   expect_consistent(mesh);
   EXPECT_EQ(mesh.node_count(), unsplit_nodes + 4);
   EXPECT_EQ(euler_characteristic(mesh), 1);
-  EXPECT_EQ(mesh.fracture_points.front().kind, Kind::tip);
-  const FracturePoint& end = mesh.fracture_points.back();
+  EXPECT_EQ(mesh.ridges.front().kind, Kind::tip);
+  const Ridge& end = mesh.ridges.back();
   EXPECT_EQ(end.kind, Kind::on_boundary);
   EXPECT_EQ(mesh.side_names[end.side], "right");
 }
@@ -130,7 +130,7 @@ TEST(BuildMesh, RawMeshClosesTheWallsAgain) {
   EXPECT_EQ(closed.cells, raw.cells);
   EXPECT_EQ(closed.fractures[0].nodes, raw.fractures[0].nodes);
   EXPECT_EQ(closed.fractures[1].nodes, raw.fractures[1].nodes);
-  EXPECT_EQ(closed.boundary_edges.size(), raw.boundary_edges.size());
+  EXPECT_EQ(closed.boundary_faces.size(), raw.boundary_faces.size());
   for (int n = 0; n < mesh.node_count(); ++n) EXPECT_EQ(raw.nodes[merged[n]], mesh.nodes[n]);
   const Mesh again = build_mesh(closed);
   EXPECT_EQ(again.cell_nodes, mesh.cell_nodes);
@@ -139,7 +139,7 @@ TEST(BuildMesh, RawMeshClosesTheWallsAgain) {
 
 int junction_points(const Mesh& mesh) {
   int count = 0;
-  for (const FracturePoint& point : mesh.fracture_points) count += point.kind == Kind::junction;
+  for (const Ridge& point : mesh.ridges) count += point.kind == Kind::junction;
   return count;
 }
 
@@ -151,12 +151,12 @@ TEST(BuildMesh, SplitsACrossingIntoFour) {
   EXPECT_EQ(euler_characteristic(mesh), 0);  // one hole in the shape of a cross
   ASSERT_EQ(mesh.junctions.size(), 1u);
   EXPECT_EQ(mesh.junctions[0].cells, (std::vector{1, 2, 5, 6}));
-  EXPECT_EQ(mesh.junctions[0].points.size(), 6u);  // pairs of four
+  EXPECT_EQ(mesh.junctions[0].ridges.size(), 6u);  // pairs of four
   EXPECT_EQ(junction_points(mesh), 6);
-  EXPECT_EQ(mesh.fracture_points.size(), 2 * 4u + 6u);
+  EXPECT_EQ(mesh.ridges.size(), 2 * 4u + 6u);
   // Between neighbours in a fracture lies their own point.
-  EXPECT_EQ(mesh.fracture_cells[1].points[1], mesh.fracture_cells[2].points[0]);
-  EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[6].points[0]].cells, (std::vector{5, 6}));
+  EXPECT_EQ(mesh.fracture_cells[1].ridges[1], mesh.fracture_cells[2].ridges[0]);
+  EXPECT_EQ(mesh.ridges[mesh.fracture_cells[6].ridges[0]].cells, (std::vector{5, 6}));
 }
 
 TEST(BuildMesh, FracturesThatCrossFromSideToSidePartTheRock) {
@@ -173,13 +173,13 @@ TEST(BuildMesh, AFractureMayEndAtAnother) {
   ASSERT_EQ(mesh.junctions.size(), 1u);
   EXPECT_EQ(mesh.junctions[0].cells, (std::vector{0, 3, 4}));
   EXPECT_EQ(junction_points(mesh), 3);
-  const FracturePoint& end = mesh.fracture_points[mesh.fracture_cells[0].points[0]];
+  const Ridge& end = mesh.ridges[mesh.fracture_cells[0].ridges[0]];
   EXPECT_EQ(end.kind, Kind::junction);
-  EXPECT_EQ(end.position, Point(4, 4));
+  EXPECT_EQ(end.center, Point(4, 4));
   EXPECT_EQ(end.cells, (std::vector{0, 3}));
-  EXPECT_EQ(std::count_if(mesh.fracture_points.begin(), mesh.fracture_points.end(),
-                          [](const FracturePoint& point) { return point.kind == Kind::tip; }),
-            3);
+  EXPECT_EQ(
+      std::count_if(mesh.ridges.begin(), mesh.ridges.end(), [](const Ridge& point) { return point.kind == Kind::tip; }),
+      3);
 }
 
 TEST(BuildMesh, FracturesEndToEndAreSplitLikeOne) {
@@ -187,8 +187,8 @@ TEST(BuildMesh, FracturesEndToEndAreSplitLikeOne) {
   expect_consistent(mesh);
   EXPECT_EQ(mesh.node_count(), unsplit_nodes + 3);
   ASSERT_EQ(mesh.junctions.size(), 1u);
-  EXPECT_EQ(mesh.junctions[0].points.size(), 1u);
-  EXPECT_EQ(mesh.fracture_cells[1].points[1], mesh.fracture_cells[2].points[0]);
+  EXPECT_EQ(mesh.junctions[0].ridges.size(), 1u);
+  EXPECT_EQ(mesh.fracture_cells[1].ridges[1], mesh.fracture_cells[2].ridges[0]);
 }
 
 TEST(BuildMesh, AFractureOfOneCellMayJoinTwo) {
@@ -196,8 +196,8 @@ TEST(BuildMesh, AFractureOfOneCellMayJoinTwo) {
       squares({fracture("a", {{2, 4}, {6, 4}}), fracture("b", {{2, 5}, {6, 5}}), fracture("c", {{4, 5}, {4, 4}})}));
   expect_consistent(mesh);
   ASSERT_EQ(mesh.junctions.size(), 2u);
-  EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[8].points[0]].position, Point(4, 5));
-  EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[8].points[1]].position, Point(4, 4));
+  EXPECT_EQ(mesh.ridges[mesh.fracture_cells[8].ridges[0]].center, Point(4, 5));
+  EXPECT_EQ(mesh.ridges[mesh.fracture_cells[8].ridges[1]].center, Point(4, 4));
   EXPECT_EQ(fracture_networks(mesh), (std::vector{0, 0, 0}));
 }
 
@@ -219,8 +219,8 @@ TEST(BuildMesh, RefusesFracturesThatOverlap) {
 TEST(BuildMesh, RefusesFracturesThatMeetOnTheBoundary) {
   RawMesh raw = squares({fracture("a", {{0, 4}, {6, 4}})});
   const int on_side = raw.fractures[0].nodes[0], above = on_side + 9 + 1, below = on_side - 9 + 1;
-  const CellEdges edges(raw.nodes, raw.cells);
-  raw.fractures.push_back({"b", {on_side, edges.find(on_side, above) == none ? below : above}});
+  const FaceTable edges(raw.nodes, raw.cells);
+  raw.fractures.push_back({"b", {on_side, edges.find({on_side, above}) == none ? below : above}});
   EXPECT_THAT(input_error([&] { build_mesh(raw); }),
               AllOf(HasSubstr("'a' and 'b' meet at (0, 4)"), HasSubstr("on the outer boundary")));
 }
@@ -245,7 +245,7 @@ TEST(BuildMesh, RefusesWrongTriangles) {
                      .cells = {{0, 1, 2}, {1, 3, 2}},
                      .regions = {0, 0},
                      .region_names = {"rock"},
-                     .boundary_edges = {{{0, 1}, 0}, {{1, 3}, 0}, {{3, 2}, 0}, {{2, 0}, 0}},
+                     .boundary_faces = {{{0, 1}, 0}, {{1, 3}, 0}, {{3, 2}, 0}, {{2, 0}, 0}},
                      .side_names = {"outside"},
                      .fractures = {}};
   expect_consistent(build_mesh(good));
@@ -264,14 +264,14 @@ TEST(BuildMesh, RefusesWrongTriangles) {
   raw.cells[1][1] = 7;
   EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("a node that does not exist"));
   raw = good;
-  raw.boundary_edges.pop_back();
+  raw.boundary_faces.pop_back();
   EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("the outer edge at (0, 0.5) belongs to no side"));
   raw = good;
-  raw.boundary_edges.push_back({{1, 2}, 0});
+  raw.boundary_faces.push_back({{1, 2}, 0});
   EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("has an edge inside the mesh"));
   raw = good;
   raw.side_names.push_back("second");
-  raw.boundary_edges.push_back({{0, 1}, 1});
+  raw.boundary_faces.push_back({{0, 1}, 1});
   EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("belongs to two sides ('outside' and 'second')"));
   raw = good;
   raw.regions.pop_back();
@@ -283,23 +283,23 @@ TEST(BuildMesh, RefusesTrianglesThatMeetInOneNode) {
                     .cells = {{0, 1, 2}, {0, 3, 4}},
                     .regions = {0, 0},
                     .region_names = {"rock"},
-                    .boundary_edges = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 0}, 0}, {{0, 3}, 0}, {{3, 4}, 0}, {{4, 0}, 0}},
+                    .boundary_faces = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 0}, 0}, {{0, 3}, 0}, {{3, 4}, 0}, {{4, 0}, 0}},
                     .side_names = {"outside"},
                     .fractures = {}};
   EXPECT_THAT(input_error([&] { build_mesh(raw); }), HasSubstr("touches itself at (0, 0)"));
 }
 
-TEST(CellEdges, FindsEdgesInEitherDirection) {
+TEST(FaceTable, FindsEdgesInEitherDirection) {
   const std::vector<Point> nodes{{0, 0}, {1, 0}, {0, 1}, {1, 1}};
-  const CellEdges edges(nodes, {{0, 1, 2}, {1, 3, 2}});
+  const FaceTable edges(nodes, {{0, 1, 2}, {1, 3, 2}});
   EXPECT_EQ(edges.size(), 5);
-  const int diagonal = edges.find(2, 1);
-  EXPECT_EQ(diagonal, edges.find(1, 2));
+  const int diagonal = edges.find({2, 1});
+  EXPECT_EQ(diagonal, edges.find({1, 2}));
   EXPECT_EQ(edges.nodes(diagonal), (std::array{1, 2}));
   EXPECT_EQ(edges.cells(diagonal), (std::array{0, 1}));
   EXPECT_FALSE(edges.is_outer(diagonal));
-  EXPECT_EQ(edges.find(0, 3), none);
-  EXPECT_EQ(edges.find(0, 9), none);
+  EXPECT_EQ(edges.find({0, 3}), none);
+  EXPECT_EQ(edges.find({0, 9}), none);
 }
 
 }  // namespace

@@ -135,8 +135,7 @@ inline void expect_consistent(const Mesh& mesh) {
   }
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
-    const Point &from = mesh.fracture_points[cell.points[0]].position,
-                &to = mesh.fracture_points[cell.points[1]].position;
+    const Point &from = mesh.ridges[cell.ridges[0]].center, &to = mesh.ridges[cell.ridges[1]].center;
     ASSERT_NEAR((to - from - cell.measure * cell.tangents).norm(), 0, 1e-15);
     ASSERT_NEAR((cell.tangents - Point(-cell.normal.y(), cell.normal.x())).norm(), 0, 1e-15);
     ASSERT_NEAR((cell.center - (from + to) / 2).norm(), 0, 1e-15);
@@ -151,27 +150,26 @@ inline void expect_consistent(const Mesh& mesh) {
       ASSERT_EQ(mesh.nodes[b], wall == 0 ? to : from);
     }
   }
-  for (const FracturePoint& point : mesh.fracture_points) {
-    const bool is_between = point.kind == FracturePoint::Kind::inside || point.kind == FracturePoint::Kind::junction;
+  for (const Ridge& point : mesh.ridges) {
+    const bool is_between = point.kind == Ridge::Kind::inside || point.kind == Ridge::Kind::junction;
     ASSERT_EQ(point.cells.size(), is_between ? 2u : 1u);
     ASSERT_TRUE(std::is_sorted(point.cells.begin(), point.cells.end()));
-    ASSERT_EQ(point.side != none, point.kind == FracturePoint::Kind::on_boundary);
+    ASSERT_EQ(point.side != none, point.kind == Ridge::Kind::on_boundary);
   }
   for (const Junction& junction : mesh.junctions) {
     std::size_t next = 0;
     for (std::size_t i = 0; i < junction.cells.size(); ++i) {
       for (std::size_t j = i + 1; j < junction.cells.size(); ++j) {
-        const FracturePoint& point = mesh.fracture_points.at(junction.points.at(next++));
-        ASSERT_EQ(point.kind, FracturePoint::Kind::junction);
+        const Ridge& point = mesh.ridges.at(junction.ridges.at(next++));
+        ASSERT_EQ(point.kind, Ridge::Kind::junction);
         ASSERT_EQ(point.cells, (std::vector{junction.cells[i], junction.cells[j]}));
         for (const int cell : point.cells) {
-          const auto& [a, b] = mesh.fracture_cells[cell].points;
-          ASSERT_TRUE(mesh.fracture_points[a].position == point.position ||
-                      mesh.fracture_points[b].position == point.position);
+          const auto& [a, b] = mesh.fracture_cells[cell].ridges;
+          ASSERT_TRUE(mesh.ridges[a].center == point.center || mesh.ridges[b].center == point.center);
         }
       }
     }
-    ASSERT_EQ(next, junction.points.size());
+    ASSERT_EQ(next, junction.ridges.size());
   }
 }
 

@@ -1,4 +1,4 @@
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 #include "framework/meshing/arrangement.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"

@@ -1,8 +1,8 @@
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/plane/point_location.hpp"
 
 #include <random>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
@@ -81,7 +81,7 @@ TEST(NearestFractureCell, IsTheOneBelowThePoint) {
   EXPECT_EQ(nearest_fracture_cell(mesh, {0, 0}, [](int) { return false; }), none);
   // Round-off does not choose between cells that meet at a node.
   const FractureCell& first = mesh.fracture_cells[mesh.fractures[0].first_cell];
-  const Point node = mesh.fracture_points[first.points[1]].position;
+  const Point node = mesh.ridges[first.ridges[1]].center;
   for (const double off : {-1e-9, 0.0, 1e-9})
     EXPECT_EQ(nearest_fracture_cell(mesh, node + Point(off, off)), mesh.fractures[0].first_cell);
 }

@@ -20,7 +20,7 @@ TEST(TopologyHash, DependsOnCornersAndFracturesAlone) {
   std::swap(other.cell_nodes[0], other.cell_nodes[1]);
   EXPECT_NE(topology_hash(other), hash);
   other = mesh;
-  std::swap(other.fracture_cells[0].points[0], other.fracture_cells[0].points[1]);
+  std::swap(other.fracture_cells[0].ridges[0], other.fracture_cells[0].ridges[1]);
   EXPECT_NE(topology_hash(other), hash);
   other = mesh;
   other.fracture_cells.pop_back();

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
 #include "framework/meshing/geometry.hpp"
 
 namespace sprekk {

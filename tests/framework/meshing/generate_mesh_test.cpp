@@ -3,8 +3,8 @@
 #include <ctime>
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/mesh_quality.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/mesh_quality.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {
@@ -71,8 +71,8 @@ TEST(GenerateMesh, ConformsToFracturesAndRegions) {
     EXPECT_NEAR(fracture_length(mesh, static_cast<int>(i)), length, 1e-13);
     const auto& [name, first, count] = mesh.fractures[i];
     EXPECT_EQ(name, geometry.fractures[i].name);
-    EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[first].points[0]].position, points.front());
-    EXPECT_EQ(mesh.fracture_points[mesh.fracture_cells[first + count - 1].points[1]].position, points.back());
+    EXPECT_EQ(mesh.ridges[mesh.fracture_cells[first].ridges[0]].center, points.front());
+    EXPECT_EQ(mesh.ridges[mesh.fracture_cells[first + count - 1].ridges[1]].center, points.back());
   }
   std::array<double, 3> area{};
   for (int c = 0; c < mesh.cell_count(); ++c) area[mesh.cell_region[c]] += mesh.cell_measure[c];
@@ -84,13 +84,13 @@ TEST(GenerateMesh, ConformsToFracturesAndRegions) {
 
 TEST(GenerateMesh, EndsOnTheBoundaryKnowTheirSide) {
   const Mesh mesh = generate_mesh(busy_geometry(), {.size = 0.2});
-  const auto end = [&](int fracture, bool last) -> const FracturePoint& {
+  const auto end = [&](int fracture, bool last) -> const Ridge& {
     const auto& [name, first, count] = mesh.fractures[fracture];
-    return mesh.fracture_points[mesh.fracture_cells[last ? first + count - 1 : first].points[last ? 1 : 0]];
+    return mesh.ridges[mesh.fracture_cells[last ? first + count - 1 : first].ridges[last ? 1 : 0]];
   };
-  EXPECT_EQ(end(0, false).kind, FracturePoint::Kind::tip);
+  EXPECT_EQ(end(0, false).kind, Ridge::Kind::tip);
   EXPECT_EQ(mesh.side_names[end(1, false).side], "right");
-  EXPECT_EQ(end(1, true).kind, FracturePoint::Kind::tip);
+  EXPECT_EQ(end(1, true).kind, Ridge::Kind::tip);
   EXPECT_EQ(mesh.side_names[end(3, false).side], "bottom");
   EXPECT_EQ(mesh.side_names[end(3, true).side], "right");
 }
@@ -111,8 +111,8 @@ TEST(GenerateMesh, GradingReachesTheSizesAskedFor) {
     return sum / count;
   };
   const auto& [name, first, count] = mesh.fractures[0];
-  for (const int point : {mesh.fracture_cells[first].points[0], mesh.fracture_cells[first + count - 1].points[1]}) {
-    EXPECT_NEAR(mean_length_near(mesh.fracture_points[point].position, tip_size), tip_size, 0.3 * tip_size);
+  for (const int point : {mesh.fracture_cells[first].ridges[0], mesh.fracture_cells[first + count - 1].ridges[1]}) {
+    EXPECT_NEAR(mean_length_near(mesh.ridges[point].center, tip_size), tip_size, 0.3 * tip_size);
   }
   EXPECT_NEAR(mean_length_near({1, 1}, fracture_size), fracture_size, 0.3 * fracture_size);
   EXPECT_NEAR(mean_length_near({0.4, 1.6}, 4 * size), size, 0.3 * size);
@@ -134,8 +134,8 @@ TEST(GenerateMesh, SmallAndLargeBoxesFarFromTheOrigin) {
       EXPECT_NEAR(quality.cells, reference.cell_count(), 0.02 * reference.cell_count());
       EXPECT_GT(quality.smallest_angle, 20 * degree);
       EXPECT_NEAR(quality.area / (scale * scale), 4, 1e-8);
-      EXPECT_EQ(mesh.fracture_points.front().position, geometry.fractures[0].points.front());
-      EXPECT_EQ(mesh.fracture_points.back().position, geometry.fractures[0].points.back());
+      EXPECT_EQ(mesh.ridges.front().center, geometry.fractures[0].points.front());
+      EXPECT_EQ(mesh.ridges.back().center, geometry.fractures[0].points.back());
     }
   }
 }

@@ -41,7 +41,7 @@ RawMesh layers() {
       mesh.cells.emplace_back(node(i, j), node(i + 1, j + 1), node(i, j + 1));
       mesh.regions.insert(mesh.regions.end(), 2, j < 2 ? 0 : 1);
     }
-  for (int i = 0; i < nx; ++i) mesh.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 0});
+  for (int i = 0; i < nx; ++i) mesh.boundary_faces.push_back({{node(i, 0), node(i + 1, 0)}, 0});
   mesh.fractures.push_back({"middle", {node(3, 2), node(4, 2), node(5, 2)}});
   return mesh;
 }
@@ -55,7 +55,7 @@ RawMesh numbered(const RawMesh& mesh, const std::vector<int>& nodes, const std::
     for (int& node : cell) node = nodes[node];
     other.regions[cells[i]] = mesh.regions[i];
   }
-  for (auto& edge : other.boundary_edges)
+  for (auto& edge : other.boundary_faces)
     for (int& node : edge.nodes) node = nodes[node];
   for (auto& fracture : other.fractures)
     for (int& node : fracture.nodes) node = nodes[node];
@@ -67,9 +67,9 @@ void expect_equal(const RawMesh& mesh, const RawMesh& expected) {
   EXPECT_THAT(mesh.cells, ElementsAreArray(expected.cells));
   EXPECT_THAT(mesh.regions, ElementsAreArray(expected.regions));
   EXPECT_THAT(mesh.fractures.at(0).nodes, ElementsAreArray(expected.fractures.at(0).nodes));
-  ASSERT_EQ(mesh.boundary_edges.size(), expected.boundary_edges.size());
-  for (std::size_t i = 0; i < mesh.boundary_edges.size(); ++i)
-    EXPECT_THAT(mesh.boundary_edges[i].nodes, ElementsAreArray(expected.boundary_edges[i].nodes));
+  ASSERT_EQ(mesh.boundary_faces.size(), expected.boundary_faces.size());
+  for (std::size_t i = 0; i < mesh.boundary_faces.size(); ++i)
+    EXPECT_THAT(mesh.boundary_faces[i].nodes, ElementsAreArray(expected.boundary_faces[i].nodes));
 }
 
 // What Hilbert's curve is known for: from a square it goes to one of its neighbours.

@@ -2,10 +2,10 @@
 #include <random>
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/cell_shape.hpp"
-#include "framework/mesh/mesh_quality.hpp"
-#include "framework/mesh/planar.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
+#include "framework/mesh/plane/mesh_quality.hpp"
+#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/plane/point_location.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/single_cell_corners.hpp"
 #include "framework/remeshing/overlap.hpp"
@@ -125,9 +125,9 @@ TEST(Quadrilaterals, MadeOfTrianglesConformAndAreConvex) {
     EXPECT_GT(joined, 0.75 * all);
     for (const Ring& cell : mesh.cell_nodes) EXPECT_GT(smallest_corner_area(mesh.nodes, cell), 0);
     EXPECT_EQ(mesh_quality(mesh).cells_with_one_neighbour, 0);
-    for (const FracturePoint& point : mesh.fracture_points) {
-      if (point.kind != FracturePoint::Kind::tip) continue;
-      const auto node = std::find(mesh.nodes.begin(), mesh.nodes.end(), point.position) - mesh.nodes.begin();
+    for (const Ridge& point : mesh.ridges) {
+      if (point.kind != Ridge::Kind::tip) continue;
+      const auto node = std::find(mesh.nodes.begin(), mesh.nodes.end(), point.center) - mesh.nodes.begin();
       EXPECT_GE(mesh.node_cells[static_cast<int>(node)].size(), 5u);
       for (const int cell : mesh.node_cells[static_cast<int>(node)]) EXPECT_EQ(mesh.cell_nodes[cell].size(), 3);
     }
@@ -143,7 +143,7 @@ RawMesh one_quadrilateral(const std::vector<Point>& nodes) {
           .cells = {{0, 1, 2, 3}},
           .regions = {0},
           .region_names = {"rock"},
-          .boundary_edges = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 3}, 0}, {{3, 0}, 0}},
+          .boundary_faces = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 3}, 0}, {{3, 0}, 0}},
           .side_names = {"outside"},
           .fractures = {}};
 }
@@ -166,7 +166,7 @@ TEST(Quadrilaterals, ALoneTriangleInACornerIsHalvedTogetherWithTheQuadrilateralB
               .cells = {{0, 1, 2}, {3, 4, 0, 2}},
               .regions = {0, 1},
               .region_names = {"rock", "other"},
-              .boundary_edges = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 3}, 0}, {{3, 4}, 0}, {{4, 0}, 0}},
+              .boundary_faces = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 3}, 0}, {{3, 4}, 0}, {{4, 0}, 0}},
               .side_names = {"outside"},
               .fractures = {}};
   const double area = total_area(build_mesh(raw));

@@ -85,10 +85,10 @@ TEST(ReadMsh, ReadsRegionsSidesAndFractures) {
   ASSERT_EQ(mesh.fractures.size(), 1u);
   EXPECT_EQ(mesh.fractures[0].name, "crack");
   ASSERT_EQ(mesh.fractures[0].cell_count, 3);
-  EXPECT_EQ(mesh.fracture_points[0].position, Point(2, 2));
-  EXPECT_EQ(mesh.fracture_points[3].position, Point(0, 1));
-  EXPECT_EQ(mesh.fracture_points[3].kind, FracturePoint::Kind::on_boundary);
-  EXPECT_EQ(mesh.side_names[mesh.fracture_points[3].side], "boundary");
+  EXPECT_EQ(mesh.ridges[0].center, Point(2, 2));
+  EXPECT_EQ(mesh.ridges[3].center, Point(0, 1));
+  EXPECT_EQ(mesh.ridges[3].kind, Ridge::Kind::on_boundary);
+  EXPECT_EQ(mesh.side_names[mesh.ridges[3].side], "boundary");
   double clay = 0, bottom = 0;
   for (int c = 0; c < mesh.cell_count(); ++c) clay += mesh.cell_region[c] == 1 ? mesh.cell_measure[c] : 0;
   for (int f = 0; f < mesh.face_count(); ++f) bottom += mesh.face_side[f] == 0 ? mesh.face_measure[f] : 0;

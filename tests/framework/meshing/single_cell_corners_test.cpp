@@ -1,7 +1,7 @@
 #include "framework/meshing/single_cell_corners.hpp"
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/plane/mesh_quality.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {
@@ -24,12 +24,12 @@ RawMesh rising(int nx, int ny) {
   }
   mesh.regions.assign(mesh.cells.size(), 0);
   for (int i = 0; i < nx; ++i) {
-    mesh.boundary_edges.push_back({{node(i, 0), node(i + 1, 0)}, 0});
-    mesh.boundary_edges.push_back({{node(i, ny), node(i + 1, ny)}, 0});
+    mesh.boundary_faces.push_back({{node(i, 0), node(i + 1, 0)}, 0});
+    mesh.boundary_faces.push_back({{node(i, ny), node(i + 1, ny)}, 0});
   }
   for (int j = 0; j < ny; ++j) {
-    mesh.boundary_edges.push_back({{node(0, j), node(0, j + 1)}, 0});
-    mesh.boundary_edges.push_back({{node(nx, j), node(nx, j + 1)}, 0});
+    mesh.boundary_faces.push_back({{node(0, j), node(0, j + 1)}, 0});
+    mesh.boundary_faces.push_back({{node(nx, j), node(nx, j + 1)}, 0});
   }
   return mesh;
 }
@@ -85,7 +85,7 @@ TEST(SingleCellCorners, LeavesALonelyTriangle) {
                .cells = {{0, 1, 2}},
                .regions = {0},
                .region_names = {"rock"},
-               .boundary_edges = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 0}, 0}},
+               .boundary_faces = {{{0, 1}, 0}, {{1, 2}, 0}, {{2, 0}, 0}},
                .side_names = {"outside"},
                .fractures = {}};
   EXPECT_EQ(avoid_single_cell_corners(mesh), 0);

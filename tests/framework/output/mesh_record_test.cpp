@@ -81,12 +81,12 @@ TEST_F(MeshRecord, EveryMemberComesBackToTheBit) {
     EXPECT_EQ(a.normal, b.normal);
     EXPECT_EQ(a.tangents, b.tangents);
   }
-  ASSERT_EQ(read.fracture_points.size(), mesh.fracture_points.size());
-  for (std::size_t i = 0; i < mesh.fracture_points.size(); ++i) {
-    EXPECT_EQ(read.fracture_points[i].position, mesh.fracture_points[i].position);
-    EXPECT_EQ(read.fracture_points[i].cells, mesh.fracture_points[i].cells);
-    EXPECT_EQ(read.fracture_points[i].kind, mesh.fracture_points[i].kind);
-    EXPECT_EQ(read.fracture_points[i].side, mesh.fracture_points[i].side);
+  ASSERT_EQ(read.ridges.size(), mesh.ridges.size());
+  for (std::size_t i = 0; i < mesh.ridges.size(); ++i) {
+    EXPECT_EQ(read.ridges[i].center, mesh.ridges[i].center);
+    EXPECT_EQ(read.ridges[i].cells, mesh.ridges[i].cells);
+    EXPECT_EQ(read.ridges[i].kind, mesh.ridges[i].kind);
+    EXPECT_EQ(read.ridges[i].side, mesh.ridges[i].side);
   }
 }
 

@@ -88,7 +88,7 @@ TEST_F(VtuWriter, TrianglesBesideQuadrilateralsAreReadBack) {
               .cells = {{0, 1, 2, 3}, {1, 4, 2}},
               .regions = {0, 1},
               .region_names = {"rock", "other"},
-              .boundary_edges = {{{0, 1}, 0}, {{2, 3}, 0}, {{3, 0}, 0}, {{1, 4}, 0}, {{4, 2}, 0}},
+              .boundary_faces = {{{0, 1}, 0}, {{2, 3}, 0}, {{3, 0}, 0}, {{1, 4}, 0}, {{4, 2}, 0}},
               .side_names = {"outside"},
               .fractures = {}};
   const Mesh mixed = build_mesh(raw);
@@ -122,7 +122,7 @@ TEST_F(VtuWriter, FracturesAreReadBackToTheBitWithTheirWallsAndFrames) {
     const vtkIdType* points;
     grid->GetCellPoints(i, count, points);
     ASSERT_EQ(count, 2);
-    const Point& begin = mesh.fracture_points[mesh.fracture_cells[i].points[0]].position;
+    const Point& begin = mesh.ridges[mesh.fracture_cells[i].ridges[0]].center;
     EXPECT_EQ(grid->GetPoint(points[0])[0], begin.x());
     EXPECT_EQ(grid->GetPoint(points[0])[1], begin.y());
     EXPECT_EQ(grid->GetCellData()->GetArray("fracture")->GetComponent(i, 0), i < 3 ? 0 : 1);

@@ -1,14 +1,14 @@
 #include "framework/remeshing/extend_fractures.hpp"
 
-#include "framework/mesh/mesh_quality.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/mesh_quality.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"
 
 namespace sprekk::test {
 namespace {
 
-using Kind = FracturePoint::Kind;
+using Kind = Ridge::Kind;
 
 constexpr double size = 0.02;
 constexpr CavityOptions usual{.radius = 5 * size, .size = size, .growth = 0.3};
@@ -87,8 +87,8 @@ TEST(ExtendFractures, SeveralSegments) {
   EXPECT_EQ(grown.extension_cells[0].size(), 2u + 2u + 1u);
   EXPECT_EQ(tip(grown.mesh, 0, false), path.points[2]);
   for (const Point& x : path.points) {
-    EXPECT_EQ(std::count_if(grown.mesh.fracture_points.begin(), grown.mesh.fracture_points.end(),
-                            [&](const FracturePoint& point) { return point.position == x; }),
+    EXPECT_EQ(std::count_if(grown.mesh.ridges.begin(), grown.mesh.ridges.end(),
+                            [&](const Ridge& point) { return point.center == x; }),
               1);
   }
   EXPECT_GE(grown.smallest_angle, 20 * degree);
@@ -148,7 +148,7 @@ TEST(ExtendFractures, BesideTheOuterBoundary) {
   const Mesh mesh = with_fractures({fracture("main", {{0.8, 2 * size}, {1, size}})});
   const GrownMesh grown = extend_fractures(mesh, {{0, true, {{1 + 4 * size, size}}}}, usual);
   expect_sound(mesh, grown);
-  EXPECT_EQ(grown.mesh.fracture_points[grown.mesh.fracture_cells.back().points[1]].kind, Kind::tip);
+  EXPECT_EQ(grown.mesh.ridges[grown.mesh.fracture_cells.back().ridges[1]].kind, Kind::tip);
   EXPECT_GE(grown.smallest_angle, 20 * degree);
 }
 
@@ -177,9 +177,9 @@ TEST(ExtendFractures, EndsOnTheOuterBoundary) {
     // Not quite there: the last hundredth of an edge is made up for.
     const GrownMesh grown = extend_fractures(mesh, {{0, true, {{x, 2 - 0.005 * size}}}}, usual);
     expect_sound(mesh, grown);
-    const FracturePoint& end = grown.mesh.fracture_points[grown.mesh.fracture_cells.back().points[1]];
+    const Ridge& end = grown.mesh.ridges[grown.mesh.fracture_cells.back().ridges[1]];
     EXPECT_EQ(end.kind, Kind::on_boundary);
-    EXPECT_EQ(end.position, Point(x, 2));
+    EXPECT_EQ(end.center, Point(x, 2));
     EXPECT_EQ(grown.mesh.side_names[end.side], "top");
     EXPECT_EQ(euler_characteristic(grown.mesh), euler_characteristic(mesh) + 1);  // the hole opens
     // The corner between fracture and side holds two cells.
@@ -195,7 +195,7 @@ TEST(ExtendFractures, JoinsAnotherFracture) {
   const auto& [name, first, count] = mesh.fractures[1];
   for (int n = 0; n <= count; ++n) {
     const FractureCell& cell = mesh.fracture_cells[first + std::min(n, count - 1)];
-    const Point place = mesh.fracture_points[cell.points[n < count ? 0 : 1]].position;
+    const Point place = mesh.ridges[cell.ridges[n < count ? 0 : 1]].center;
     if (std::abs(place.y() - 1) > 0.25) continue;  // at less than 22 degrees
     const GrownMesh grown = extend_fractures(mesh, {{0, true, {place}}}, usual);
     expect_sound(mesh, grown);
@@ -205,16 +205,16 @@ TEST(ExtendFractures, JoinsAnotherFracture) {
     // The corner between both holds two cells.
     const double incidence = std::atan2(0.1, std::abs(place.y() - 1));
     EXPECT_GE(grown.smallest_angle, std::min(20 * degree, 0.5 * incidence - 0.1 * degree)) << place.y();
-    const auto& [pair, end] = std::pair(grown.mesh.junctions[0].points.back(), grown.mesh.junctions[0].points.front());
-    EXPECT_NE(grown.change.fracture_point[pair], none);  // between the cells of the wall
-    EXPECT_EQ(grown.change.fracture_point[end], none);
+    const auto& [pair, end] = std::pair(grown.mesh.junctions[0].ridges.back(), grown.mesh.junctions[0].ridges.front());
+    EXPECT_NE(grown.change.ridge[pair], none);  // between the cells of the wall
+    EXPECT_EQ(grown.change.ridge[end], none);
     EXPECT_THROW(extend_fractures(grown.mesh, {straight(grown.mesh, 0, true, size)}, usual), ExtensionError);
 
     // The joint stays when others grow beside it.
     const GrownMesh next = extend_fractures(grown.mesh, {straight(grown.mesh, 1, true, 2 * size, 0.5)}, usual);
     expect_sound(grown.mesh, next);
     ASSERT_EQ(next.mesh.junctions.size(), 1u);
-    for (const int point : next.mesh.junctions[0].points) EXPECT_NE(next.change.fracture_point[point], none);
+    for (const int point : next.mesh.junctions[0].ridges) EXPECT_NE(next.change.ridge[point], none);
   }
 }
 
@@ -268,9 +268,9 @@ TEST(ExtendFractures, CornersOfRegionsTakeWhatPassesThemClosely) {
     const GrownMesh grown = extend_fractures(mesh, {straight(mesh, 0, true, 5 * size)}, usual);
     expect_sound(mesh, grown);
     double to_corner = 1, off_line = 0;
-    for (const FracturePoint& point : grown.mesh.fracture_points) {
-      to_corner = std::min(to_corner, (point.position - corner).norm());
-      off_line = std::max(off_line, std::abs(point.position.y() - 1));
+    for (const Ridge& point : grown.mesh.ridges) {
+      to_corner = std::min(to_corner, (point.center - corner).norm());
+      off_line = std::max(off_line, std::abs(point.center.y() - 1));
     }
     const bool bends = std::abs(away) < 0.1;
     EXPECT_EQ(to_corner == 0, bends) << away;

@@ -1,6 +1,6 @@
 #include "framework/remeshing/extension_check.hpp"
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"
 #include "tests/framework/remeshing/mesh_with_obstacles.hpp"

@@ -23,9 +23,9 @@ TEST(FreeLength, IsTheWayToTheNearestObstacle) {
   EXPECT_EQ(mesh.side_names[free.index], "bottom");
   EXPECT_NEAR(free.length, 0.625, 1e-14);
   // Through a node of the wall, and to the end of a fracture in line.
-  free = free_length(
-      mesh, 0, true, {1.5, 1},
-      mesh.fracture_points[mesh.fracture_cells[mesh.fractures[1].first_cell + 3].points[0]].position - Point(1.5, 1));
+  free =
+      free_length(mesh, 0, true, {1.5, 1},
+                  mesh.ridges[mesh.fracture_cells[mesh.fractures[1].first_cell + 3].ridges[0]].center - Point(1.5, 1));
   EXPECT_EQ(free.index, 1);
   EXPECT_EQ(free.met, FreeLength::Met::fracture);
   free = free_length(mesh, 0, true, {2.7, 1}, {1, 0});

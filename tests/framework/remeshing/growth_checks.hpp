@@ -13,7 +13,7 @@ namespace sprekk::test {
 inline Point tip(const Mesh& mesh, int fracture, bool at_end) {
   const auto& [name, first, count] = mesh.fractures[fracture];
   const FractureCell& cell = mesh.fracture_cells[at_end ? first + count - 1 : first];
-  return mesh.fracture_points[cell.points[at_end ? 1 : 0]].position;
+  return mesh.ridges[cell.ridges[at_end ? 1 : 0]].center;
 }
 
 /// Out of the end, of unit length.
@@ -128,7 +128,7 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
   const int replaced_count = static_cast<int>(shares.size());
   ASSERT_EQ(mesh.fractures.size(), old.fractures.size());
   ASSERT_EQ(change.fracture_cell.size(), mesh.fracture_cells.size());
-  ASSERT_EQ(change.fracture_point.size(), mesh.fracture_points.size());
+  ASSERT_EQ(change.ridge.size(), mesh.ridges.size());
   int joined_tips = 0;
   for (std::size_t f = 0; f < mesh.fractures.size(); ++f) {
     ASSERT_EQ(mesh.fractures[f].name, old.fractures[f].name);
@@ -141,11 +141,11 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
       ASSERT_EQ(mesh.fracture_cells[i].measure, old.fracture_cells[was].measure);
       ASSERT_EQ(mesh.fracture_cells[i].normal, old.fracture_cells[was].normal);
       for (const int end : {0, 1}) {
-        const int point = mesh.fracture_cells[i].points[end], old_point = old.fracture_cells[was].points[end];
+        const int point = mesh.fracture_cells[i].ridges[end], old_point = old.fracture_cells[was].ridges[end];
         // The tip of a fracture that another one has joined is gone.
-        const bool is_joined = mesh.fracture_points[point].kind == FracturePoint::Kind::junction &&
-                               old.fracture_points[old_point].kind == FracturePoint::Kind::tip;
-        ASSERT_EQ(change.fracture_point[point], is_joined ? none : old_point);
+        const bool is_joined =
+            mesh.ridges[point].kind == Ridge::Kind::junction && old.ridges[old_point].kind == Ridge::Kind::tip;
+        ASSERT_EQ(change.ridge[point], is_joined ? none : old_point);
         joined_tips += is_joined ? 1 : 0;
       }
     }
@@ -155,12 +155,12 @@ inline void expect_sound(const Mesh& old, const GrownMesh& grown) {
     ASSERT_EQ(from, expected);
   }
   int with_old_place = 0;
-  for (std::size_t p = 0; p < mesh.fracture_points.size(); ++p) {
-    if (change.fracture_point[p] == none) continue;
+  for (std::size_t p = 0; p < mesh.ridges.size(); ++p) {
+    if (change.ridge[p] == none) continue;
     ++with_old_place;
-    ASSERT_EQ(mesh.fracture_points[p].position, old.fracture_points[change.fracture_point[p]].position);
+    ASSERT_EQ(mesh.ridges[p].center, old.ridges[change.ridge[p]].center);
   }
-  ASSERT_EQ(with_old_place + joined_tips + replaced_count, static_cast<int>(old.fracture_points.size()));
+  ASSERT_EQ(with_old_place + joined_tips + replaced_count, static_cast<int>(old.ridges.size()));
   int grown_cells = 0;
   for (const auto& cells : extension_cells) {
     for (const int cell : cells) ASSERT_EQ(change.fracture_cell[cell], none);
@@ -208,7 +208,7 @@ inline GrownMesh extended(const Mesh& mesh, const std::vector<PathExtension>& ex
 inline Point anchor(const Mesh& mesh, int fracture, bool at_end, int replaced) {
   const auto& [name, first, count] = mesh.fractures[fracture];
   const FractureCell& cell = mesh.fracture_cells[at_end ? first + count - 1 - replaced : first + replaced];
-  return mesh.fracture_points[cell.points[at_end ? 1 : 0]].position;
+  return mesh.ridges[cell.ridges[at_end ? 1 : 0]].center;
 }
 
 /// Replaces the last cells by one in the direction of the old end as seen from the anchor: longer by `more` (m) and

@@ -60,8 +60,8 @@ TEST(HealEnds, ClosesWallsAndKeepsCells) {
     ASSERT_EQ(mesh.fracture_cells[i].center, given.fracture_cells[healed.fracture_cell[i]].center);
     ASSERT_EQ(mesh.fracture_cells[i].grown, given.fracture_cells[healed.fracture_cell[i]].grown);
   }
-  for (std::size_t p = 0; p < mesh.fracture_points.size(); ++p)
-    ASSERT_EQ(mesh.fracture_points[p].position, given.fracture_points[healed.fracture_point[p]].position);
+  for (std::size_t p = 0; p < mesh.ridges.size(); ++p)
+    ASSERT_EQ(mesh.ridges[p].center, given.ridges[healed.ridge[p]].center);
 }
 
 void expect_refused(const Mesh& mesh, const PathExtension& extension, Reason reason, const std::string& words) {

@@ -53,7 +53,7 @@ void expect_same_but_moved(const Mesh& before, const GrownMesh& grown, const Gro
   ASSERT_EQ(moved.extension_cells, grown.extension_cells);
   ASSERT_EQ(moved.change.cell, grown.change.cell);
   ASSERT_EQ(moved.change.fracture_cell, grown.change.fracture_cell);
-  ASSERT_EQ(moved.change.fracture_point, grown.change.fracture_point);
+  ASSERT_EQ(moved.change.ridge, grown.change.ridge);
   for (int f = 0; f < grown.mesh.face_count(); ++f) {
     const auto [one, other] = grown.mesh.face_cells[f];
     const bool is_interface = other != none && grown.mesh.cell_region[one] != grown.mesh.cell_region[other];
@@ -227,13 +227,13 @@ TEST(MoveTips, BeyondAnInterfaceWhichTheyCross) {
   PathExtension path{0, true, {tip(before, 0, true) + size * Point(4, 0.3)}, 0, true};
   const GrownMesh grown = extended(before, {path}, usual);
   ASSERT_EQ(grown.extension_cells[0].size(), 2u);
-  const int crossing = grown.mesh.fracture_cells[grown.extension_cells[0][0]].points[1];
+  const int crossing = grown.mesh.fracture_cells[grown.extension_cells[0][0]].ridges[1];
   path.points[0] += size * Point(0.3, 0.1);
   const auto result = move_tips(before, grown, {path}, usual);
   ASSERT_TRUE(result);
   expect_same_but_moved(before, grown, *result);
   EXPECT_EQ(tip(result->mesh, 0, true), path.points[0]);
-  EXPECT_EQ(result->mesh.fracture_points[crossing].position, grown.mesh.fracture_points[crossing].position);
+  EXPECT_EQ(result->mesh.ridges[crossing].center, grown.mesh.ridges[crossing].center);
 }
 
 TEST(MoveTips, HowFar) {

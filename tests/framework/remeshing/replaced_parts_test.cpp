@@ -2,7 +2,7 @@
 #include "framework/remeshing/replaced_parts.hpp"
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
 #include "framework/remeshing/move_tips.hpp"

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/topology_hash.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"

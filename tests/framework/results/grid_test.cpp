@@ -13,7 +13,7 @@ TEST(ReadGrid, MakesTwoTrianglesOfAQuadrilateral) {
                     .cells = {{0, 1, 2, 3}, {1, 4, 2}},
                     .regions = {0, 0},
                     .region_names = {"rock"},
-                    .boundary_edges = {{{0, 1}, 0}, {{2, 3}, 0}, {{3, 0}, 0}, {{1, 4}, 0}, {{4, 2}, 0}},
+                    .boundary_faces = {{{0, 1}, 0}, {{2, 3}, 0}, {{3, 0}, 0}, {{1, 4}, 0}, {{4, 2}, 0}},
                     .side_names = {"outside"},
                     .fractures = {}};
   const Mesh mesh = build_mesh(raw);

@@ -311,13 +311,13 @@ TEST(TransferFields, FracturesAndWallsFollowAGrowthAtTheFirstPoint) {
 
 TEST(TransferFields, FracturePointsFollow) {
   const Case c = grown_at_first_point();
-  const Vector values = varied(static_cast<int>(c.mesh.fracture_points.size()));
-  const Vector result = transfer(c, spec(Location::fracture_point), values).accepted;
+  const Vector values = varied(static_cast<int>(c.mesh.ridges.size()));
+  const Vector result = transfer(c, spec(Location::ridge), values).accepted;
   int fresh = 0;
-  for (std::size_t i = 0; i < c.grown.mesh.fracture_points.size(); ++i) {
+  for (std::size_t i = 0; i < c.grown.mesh.ridges.size(); ++i) {
     int from = none;
-    for (std::size_t k = 0; k < c.mesh.fracture_points.size(); ++k)
-      if (c.mesh.fracture_points[k].position == c.grown.mesh.fracture_points[i].position) from = static_cast<int>(k);
+    for (std::size_t k = 0; k < c.mesh.ridges.size(); ++k)
+      if (c.mesh.ridges[k].center == c.grown.mesh.ridges[i].center) from = static_cast<int>(k);
     fresh += from == none ? 1 : 0;
     EXPECT_EQ(result[static_cast<int>(i)], from == none ? -5 : values[from]);
   }

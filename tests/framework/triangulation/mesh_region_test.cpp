@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "framework/mesh/cell_edges.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/face_table.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::test {
 namespace {
@@ -88,10 +88,10 @@ TEST(SmoothTriangles, KeepsAreaAndFixedEdgesAndRaisesTheSmallestAngle) {
   EXPECT_GT(after.smallest(), 2 * before.smallest());
   EXPECT_GT(after.smallest(), 20 * degree);
   EXPECT_NEAR(after.area(), 1, 1e-14);
-  const CellEdges edges(after.points, after.triangles);
+  const FaceTable edges(after.points, after.triangles);
   for (int i = 0; i < n; ++i) {
     const int a = n / 2 * (n + 1) + i;
-    EXPECT_NE(edges.find(a, a + 1), -1);
+    EXPECT_NE(edges.find({a, a + 1}), -1);
     EXPECT_EQ(after.points[a], before.points[a]);
   }
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "components/fine_fracture/quarter_point/mesh/outside_mesh.hpp"
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/triangulation/rounded_drawing.hpp"
 
 namespace sprekk::fine_fracture {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
@@ -78,7 +78,7 @@ std::optional<OutsideMesh> moved_mesh(const Triangulated& made, const FineGeomet
   const RawMesh& raw = made.mesh.raw;
   // Later entries hold: an end of a crack on the outline follows the crack, and rosettes move as a whole.
   std::map<int, Point> places;
-  for (const RawMesh::BoundaryEdge& edge : raw.boundary_edges)
+  for (const RawMesh::BoundaryFace& edge : raw.boundary_faces)
     for (const int node : edge.nodes)
       places[node] =
           carried(raw.nodes[node], edge_of(made.geometry.outline, edge.side), edge_of(geometry.outline, edge.side));

@@ -190,7 +190,7 @@ OutsideMesh read(const Drawing& drawing, const CanonicalDrawing& canonical, cons
     if (drawing.line_edges[line] == none) continue;
     const auto nodes = reader.along(static_cast<int>(line), raw);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-      raw.boundary_edges.push_back({{nodes[i], nodes[i + 1]}, drawing.line_edges[line]});
+      raw.boundary_faces.push_back({{nodes[i], nodes[i + 1]}, drawing.line_edges[line]});
     }
   }
   for (const auto& lines : drawing.crack_lines) {

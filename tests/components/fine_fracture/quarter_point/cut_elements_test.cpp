@@ -10,7 +10,7 @@
 
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {

@@ -5,7 +5,7 @@
 #include "components/fine_fracture/fine_level/fine_domain.hpp"
 #include "components/fine_fracture/quarter_point/elasticity/adapt.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 #include "tests/components/meshes.hpp"
 

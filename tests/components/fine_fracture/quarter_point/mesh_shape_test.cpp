@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 
 namespace sprekk::test {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "tests/components/fine_fracture/quarter_point/cases.hpp"
 
 namespace sprekk::test {

@@ -1,7 +1,7 @@
 #include "framework/meshing/random/random_fractures_spec.hpp"
 
 #include "framework/config/yaml/parse_yaml.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/spec/geometry_spec.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {

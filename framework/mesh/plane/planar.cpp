@@ -1,8 +1,7 @@
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "framework/invariants.hpp"
 
@@ -57,12 +56,6 @@ double smallest_angle(const Point& a, const Point& b, const Point& c) {
   // All have this area: the smallest belongs to the largest dot product, or to the smallest one if the triangle is
   // turned.
   return std::atan2(twice_area, twice_area < 0 ? std::min(dots) : std::max(dots));
-}
-
-std::string to_text(const Point& point) {
-  std::ostringstream out;
-  out << '(' << point.x() << ", " << point.y() << ')';
-  return out.str();
 }
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/plane/mesh_quality.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/cell_shape.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 

@@ -1,4 +1,4 @@
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/plane/point_location.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {
@@ -115,8 +115,8 @@ int nearest_fracture_cell(const Mesh& mesh, const Point& x, const std::function<
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     if (counts && !counts(i)) continue;
-    const auto [from, to] = mesh.fracture_cells[i].points;
-    const double d = distance(x, Segment{mesh.fracture_points[from].position, mesh.fracture_points[to].position});
+    const auto [from, to] = mesh.fracture_cells[i].ridges;
+    const double d = distance(x, Segment{mesh.ridges[from].center, mesh.ridges[to].center});
     if (d < least - tie * mesh.fracture_cells[i].measure) least = d, nearest = i;
   }
   return nearest;

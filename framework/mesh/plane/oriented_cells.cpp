@@ -1,11 +1,11 @@
-#include "framework/mesh/counter_clockwise.hpp"
+#include "framework/mesh/oriented_cells.hpp"
 
 #include <algorithm>
 #include <string>
 
 #include "framework/config/input_error.hpp"
-#include "framework/mesh/cell_shape.hpp"
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 namespace {
@@ -41,18 +41,18 @@ void require_convex(const std::vector<Point>& nodes, const Ring& cell) {
 
 }  // namespace
 
-void require_area(const std::vector<Point>& nodes, const Ring& cell) {
+void require_sound_cell(const std::vector<Point>& nodes, const Ring& cell) {
   cell.size() == 3 ? require_triangle(nodes, cell) : require_convex(nodes, cell);
 }
 
-std::vector<Ring> counter_clockwise(const RawMesh& raw) {
+std::vector<CellNodes> oriented_cells(const RawMesh& raw) {
   std::vector<Ring> cells = raw.cells;
   const int count = static_cast<int>(raw.nodes.size());
   for (Ring& cell : cells) {
     if (*std::min_element(cell.begin(), cell.end()) < 0 || *std::max_element(cell.begin(), cell.end()) >= count) {
       throw InputError("a cell names a node that does not exist (there are " + std::to_string(count) + " nodes)");
     }
-    require_area(raw.nodes, cell);
+    require_sound_cell(raw.nodes, cell);
     if (signed_area(raw.nodes, cell) < 0) cell.turn();
   }
   return cells;

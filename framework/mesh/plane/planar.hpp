@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
+#include "framework/mesh/geometry.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {
@@ -36,8 +36,5 @@ bool is_inside(const Point& point, const std::vector<Point>& polygon);
 
 /// The smallest angle of a triangle, in rad; 0 or less when it is degenerate or clockwise.
 double smallest_angle(const Point& a, const Point& b, const Point& c);
-
-/// "(0.5, 1)" for messages, in m.
-std::string to_text(const Point& point);
 
 }  // namespace sprekk

@@ -13,7 +13,7 @@ inline const Point& original_end(const Mesh& mesh, int fracture, bool at_end) {
   };
   int i = 0;
   while (i + 1 < count && cell_from_end(i).grown) ++i;
-  return mesh.fracture_points[cell_from_end(i).points[at_end ? 1 : 0]].position;
+  return mesh.ridges[cell_from_end(i).ridges[at_end ? 1 : 0]].center;
 }
 
 }  // namespace sprekk

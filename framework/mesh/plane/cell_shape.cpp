@@ -1,10 +1,10 @@
-#include "framework/mesh/cell_shape.hpp"
+#include "framework/mesh/plane/cell_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "framework/mesh/planar.hpp"
+#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 
