@@ -61,6 +61,9 @@ struct Options {
   Origin regions_origin;
   std::map<std::string, std::string> without_effect;  ///< keys of the component that have no effect, and why
   Spec spec(const std::string& type, const std::string& doc);
+
+ private:
+  void declare_storage(Spec& spec);
 };
 
 /// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):

@@ -4,6 +4,55 @@
 
 namespace sprekk::matrix_flow {
 
+namespace {
+
+Spec side_spec(SideCondition& side) {
+  Spec inner("boundary condition of flow", "At most one of the two; none lets no fluid through.");
+  inner.data("pressure", side.pressure, {.unit = "Pa", .doc = "Pressure on this side.", .in_time = true});
+  inner.data("flux", side.flux,
+             {.unit = "m/s", .doc = "Flux out of the rock, per area of this side.", .in_time = true});
+  inner.check([](const Node& node) {
+    if (node.find("pressure") && node.find("flux"))
+      throw InputError(node.origin, "contradictory boundary condition at '" + node.path + "'",
+                       "a side has either a pressure or a flux", "remove one of them");
+  });
+  return inner;
+}
+
+Spec well_spec(Well& well) {
+  Spec inner("well", "A point that injects (or with a negative rate extracts) fluid.");
+  inner.point("at", well.at, {.unit = "m", .doc = "Position.", .required = true});
+  inner.data(
+      "rate", well.rate,
+      {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth.", .required = true, .in_time = true});
+  return inner;
+}
+
+}  // namespace
+
+void Options::declare_storage(Spec& spec) {
+  spec.data("storage", storage,
+            {.unit = "1/Pa",
+             .range = non_negative(),
+             .doc = "Specific storage as a whole; else it is porosity times fluid compressibility, completed by the "
+                    "compressibility of the grains when the rock is poroelastic.",
+             .source = "M below the paper's Eq. 7",
+             .in_time = true});
+  usually(spec, "storage", usual_storage());
+  spec.data(
+      "porosity", porosity,
+      {.range = between(0, 1), .doc = "Porosity.", .source = "the paper's Table 1", .material = true, .in_time = true});
+  usually(spec, "porosity", usual_porosity());
+  spec.data("fluid_compressibility", fluid_compressibility,
+            {.unit = "1/Pa",
+             .range = between(0, 100),
+             .doc = "Compressibility of the fluid; at most that of a gas at 0.01 Pa.",
+             .source = "the paper's Table 1",
+             .material = true,
+             .in_time = true});
+  usually(spec, "fluid_compressibility", usual_compressibility());
+}
+
 Spec Options::spec(const std::string& type, const std::string& doc) {
   Spec spec(type, doc);
   spec.ignore("type");
@@ -25,26 +74,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .material = true,
              .in_time = true});
   usually(spec, "viscosity", usual_viscosity());
-  spec.data("storage", storage,
-            {.unit = "1/Pa",
-             .range = non_negative(),
-             .doc = "Specific storage as a whole; else it is porosity times fluid compressibility, completed by the "
-                    "compressibility of the grains when the rock is poroelastic.",
-             .source = "M below the paper's Eq. 7",
-             .in_time = true});
-  usually(spec, "storage", usual_storage());
-  spec.data(
-      "porosity", porosity,
-      {.range = between(0, 1), .doc = "Porosity.", .source = "the paper's Table 1", .material = true, .in_time = true});
-  usually(spec, "porosity", usual_porosity());
-  spec.data("fluid_compressibility", fluid_compressibility,
-            {.unit = "1/Pa",
-             .range = between(0, 100),
-             .doc = "Compressibility of the fluid; at most that of a gas at 0.01 Pa.",
-             .source = "the paper's Table 1",
-             .material = true,
-             .in_time = true});
-  usually(spec, "fluid_compressibility", usual_compressibility());
+  declare_storage(spec);
   spec.vector("gravity", gravity,
               {.unit = "m/s^2",
                .doc = "Acceleration of gravity.",
@@ -68,36 +98,16 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
       {.doc = "Regions in which there is a flow; everywhere by default. Nothing passes to other rock, whose pores "
               "count as dry: neither is it loaded by a pressure, nor does it store fluid."});
   static SideCondition example_side;
-  const auto side_spec = [](SideCondition& side) {
-    Spec inner("boundary condition of flow", "At most one of the two; none lets no fluid through.");
-    inner.data("pressure", side.pressure, {.unit = "Pa", .doc = "Pressure on this side.", .in_time = true});
-    inner.data("flux", side.flux,
-               {.unit = "m/s", .doc = "Flux out of the rock, per area of this side.", .in_time = true});
-    inner.check([](const Node& node) {
-      if (node.find("pressure") && node.find("flux"))
-        throw InputError(node.origin, "contradictory boundary condition at '" + node.path + "'",
-                         "a side has either a pressure or a flux", "remove one of them");
-    });
-    return inner;
-  };
   spec.named_sections(
       "boundary", side_spec(example_side),
-      [this, side_spec](const std::string& key, const Origin& origin) {
+      [this](const std::string& key, const Origin& origin) {
         boundary[key].origin = origin;
         return side_spec(boundary[key]);
       },
       {.doc = "Conditions by the name of the side (left, right, bottom, top, or of the imported mesh)."});
   static Well example_well;
-  const auto well_spec = [](Well& well) {
-    Spec inner("well", "A point that injects (or with a negative rate extracts) fluid.");
-    inner.point("at", well.at, {.unit = "m", .doc = "Position.", .required = true});
-    inner.data(
-        "rate", well.rate,
-        {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth.", .required = true, .in_time = true});
-    return inner;
-  };
   spec.named_sections("wells", well_spec(example_well),
-                      [this, well_spec](const std::string& key, const Origin& origin) {
+                      [this](const std::string& key, const Origin& origin) {
                         wells[key].origin = origin;
                         return well_spec(wells[key]);
                       },

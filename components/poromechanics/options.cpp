@@ -146,9 +146,7 @@ Spec side_spec(SideCondition& side) {
 
 }  // namespace
 
-Spec Options::spec(const std::string& type, const std::string& doc) {
-  Spec spec(type, doc);
-  spec.ignore("type");
+void Options::declare_stiffness(Spec& spec) {
   spec.data("young_modulus", young_modulus,
             {.unit = "Pa",
              .range = positive(),
@@ -185,6 +183,12 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .doc = "Drained bulk modulus of an anisotropic rock, where a coupler asks for it.",
              .in_time = true});
   usually(spec, "bulk_modulus", usual_young_modulus());
+}
+
+Spec Options::spec(const std::string& type, const std::string& doc) {
+  Spec spec(type, doc);
+  spec.ignore("type");
+  declare_stiffness(spec);
   spec.data("rock_density", rock_density,
             {.unit = "kg/m^3",
              .range = non_negative(),

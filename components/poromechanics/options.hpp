@@ -66,6 +66,9 @@ struct Options {
   SymmetricTensor initial_stress_at(const Place& place) const;
   /// `type`, `doc`: of the component with its discretization.
   Spec spec(const std::string& type, const std::string& doc);
+
+ private:
+  void declare_stiffness(Spec& spec);
 };
 
 }  // namespace sprekk::poromechanics

@@ -21,10 +21,10 @@ constexpr double least_overshoot = 0.02, most_overshoot = 0.15;
 /// The nodes at tips.
 std::set<int> tip_nodes(const Mesh& mesh) {
   std::set<int> nodes;
-  for (const FracturePoint& point : mesh.fracture_points) {
-    if (point.kind != FracturePoint::Kind::tip) continue;
+  for (const Ridge& point : mesh.ridges) {
+    if (point.kind != Ridge::Kind::tip) continue;
     for (const int node : mesh.face_nodes[mesh.fracture_cells[point.cells[0]].faces[0]])
-      if (mesh.nodes[node] == point.position) nodes.insert(node);
+      if (mesh.nodes[node] == point.center) nodes.insert(node);
   }
   return nodes;
 }
@@ -58,7 +58,10 @@ struct PressureNearTips::Region {
   double weight = 1;
 
   explicit Region(const Mesh& mesh) : mesh(mesh) {}
+  class EdgeNodes;
+  class EdgeNodes;
   void triangulate(const std::vector<int>& region_of_cell, int self, const std::set<int>& tips);
+  void set_sources(const std::vector<int>& region_of_cell, int self, EdgeNodes& edges);
   void factorize(const std::vector<std::optional<double>>& walls);
   void solve(const Given& given);
 };
@@ -103,59 +106,74 @@ PressureNearTips::PressureNearTips(const Mesh& mesh) : mesh_(mesh), region_of_ce
   }
 }
 
-void PressureNearTips::Region::triangulate(const std::vector<int>& region_of_cell, int self,
-                                           const std::set<int>& tips) {
-  // An edge becomes finer towards a tip at one of its ends. A triangle with two tips has no first corner at which it
-  // could; then neither of them is one.
-  std::set<int> fine = tips;
-  const auto tip_count = [&](int cell) {
-    return std::ranges::count_if(mesh.cell_nodes[cell], [&](int node) { return fine.contains(node); });
-  };
-  for (const int cell : cells)
-    if (tip_count(cell) > 1)
-      for (const int node : mesh.cell_nodes[cell]) fine.erase(node);
+/// The nodes that divide the edges of a region's cells.
+class PressureNearTips::Region::EdgeNodes {
+ public:
+  /// An edge becomes finer towards a tip at one of its ends. A triangle with two tips has no first corner at which it
+  /// could; then neither of them is one.
+  EdgeNodes(Region& region, const std::set<int>& tips) : region_(region), fine_(tips) {
+    const auto tip_count = [&](int cell) { return std::ranges::count_if(corners(cell), [&](int node) { return is_fine(node); }); };
+    for (const int cell : region.cells)
+      if (tip_count(cell) > 1)
+        for (const int node : corners(cell)) fine_.erase(node);
+  }
 
-  constexpr int n = divisions;
-  std::map<std::array<int, 2>, std::vector<int>> along;  // of an edge from the lower node on
-  std::map<int, int> of_corner;
-  const auto add = [&](const Point& x) {
-    nodes.push_back(x);
-    sources.emplace_back();
-    return static_cast<int>(nodes.size()) - 1;
-  };
-  const auto corner = [&](int node) {
-    const auto [at, is_new] = of_corner.try_emplace(node, 0);
+  bool is_fine(int node) const { return fine_.contains(node); }
+
+  int add(const Point& x) {
+    region_.nodes.push_back(x);
+    region_.sources.emplace_back();
+    return static_cast<int>(region_.nodes.size()) - 1;
+  }
+
+  int corner(int node) {
+    const auto [at, is_new] = of_corner_.try_emplace(node, 0);
     if (is_new) {
-      at->second = add(mesh.nodes[node]);
-      sources[at->second].ends = {node, node};
+      at->second = add(region_.mesh.nodes[node]);
+      region_.sources[at->second].ends = {node, node};
     }
     return at->second;
-  };
-  // The k-th of n+1 nodes on the way from a to b.
-  const auto on_edge = [&](int a, int b, int k) {
+  }
+
+  /// The k-th of divisions + 1 nodes on the way from a to b.
+  int on_edge(int a, int b, int k) {
     if (k == 0) return corner(a);
-    if (k == n) return corner(b);
-    if (a > b) std::swap(a, b), k = n - k;
-    const auto [at, is_new] = along.try_emplace({a, b});
+    if (k == divisions) return corner(b);
+    if (a > b) std::swap(a, b), k = divisions - k;
+    const auto [at, is_new] = along_.try_emplace({a, b});
     if (is_new)
-      for (int i = 1; i < n; ++i) {
-        double share = double(i) / n;
-        if (fine.contains(a)) share = share * share;
-        if (fine.contains(b)) share = 1 - (1 - share) * (1 - share);
-        at->second.push_back(add(mesh.nodes[a] + share * (mesh.nodes[b] - mesh.nodes[a])));
-        sources.back().ends = {a, b};
-        sources.back().share = share;
+      for (int i = 1; i < divisions; ++i) {
+        double share = double(i) / divisions;
+        if (is_fine(a)) share = share * share;
+        if (is_fine(b)) share = 1 - (1 - share) * (1 - share);
+        const std::vector<Point>& nodes = region_.mesh.nodes;
+        at->second.push_back(add(nodes[a] + share * (nodes[b] - nodes[a])));
+        region_.sources.back().ends = {a, b};
+        region_.sources.back().share = share;
       }
     return at->second[k - 1];
-  };
+  }
 
+ private:
+  const Ring& corners(int cell) const { return region_.mesh.cell_nodes[cell]; }
+
+  Region& region_;
+  std::set<int> fine_;
+  std::map<std::array<int, 2>, std::vector<int>> along_;  // of an edge from the lower node on
+  std::map<int, int> of_corner_;
+};
+
+void PressureNearTips::Region::triangulate(const std::vector<int>& region_of_cell, int self,
+                                           const std::set<int>& tips) {
+  constexpr int n = divisions;
+  EdgeNodes edges(*this, tips);
   for (const int cell : cells) {
     const Ring& ring = mesh.cell_nodes[cell];
     std::vector<std::array<int, 3>> pieces;
     const int count = static_cast<int>(ring.size());
     int first = 0;
     for (int k = 0; k < count; ++k)
-      if (fine.contains(ring[k])) first = k;
+      if (edges.is_fine(ring[k])) first = k;
     const auto node = [&](int k) { return ring[(first + k) % count]; };
     pieces.push_back({node(0), node(1), node(2)});
     if (count == 4) pieces.push_back({node(0), node(2), node(3)});
@@ -163,13 +181,13 @@ void PressureNearTips::Region::triangulate(const std::vector<int>& region_of_cel
     for (const auto& [a, b, c] : pieces) {
       // Rows parallel to the edge b-c; row i has i+1 nodes.
       std::vector<std::vector<int>> rows(n + 1);
-      rows[0] = {corner(a)};
+      rows[0] = {edges.corner(a)};
       for (int i = 1; i <= n; ++i) {
-        const int left = on_edge(a, b, i), right = on_edge(a, c, i);
+        const int left = edges.on_edge(a, b, i), right = edges.on_edge(a, c, i);
         rows[i].push_back(left);
         for (int k = 1; k < i; ++k)
-          rows[i].push_back(i == n ? on_edge(b, c, k)
-                                   : add(nodes[left] + double(k) / i * (nodes[right] - nodes[left])));
+          rows[i].push_back(i == n ? edges.on_edge(b, c, k)
+                                   : edges.add(nodes[left] + double(k) / i * (nodes[right] - nodes[left])));
         rows[i].push_back(right);
       }
       for (int i = 0; i < n; ++i)
@@ -179,7 +197,10 @@ void PressureNearTips::Region::triangulate(const std::vector<int>& region_of_cel
         }
     }
   }
+  set_sources(region_of_cell, self, edges);
+}
 
+void PressureNearTips::Region::set_sources(const std::vector<int>& region_of_cell, int self, EdgeNodes& edges) {
   for (const int cell : cells)
     for (const int face : mesh.cell_faces[cell]) {
       const int wall = mesh.face_fracture_cell[face];
@@ -188,8 +209,8 @@ void PressureNearTips::Region::triangulate(const std::vector<int>& region_of_cel
       const bool is_rim =
           wall == none && (other == none || region_of_cell[one] != self || region_of_cell[other] != self);
       if (wall == none && !is_rim) continue;
-      for (int k = 0; k <= n; ++k) {
-        Source& source = sources[on_edge(a, b, k)];
+      for (int k = 0; k <= divisions; ++k) {
+        Source& source = sources[edges.on_edge(a, b, k)];
         if (is_rim) {
           source.on_rim = true;
         } else if (std::ranges::find(source.faces, face) == source.faces.end()) {

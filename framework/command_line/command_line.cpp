@@ -116,6 +116,127 @@ int answer_wrong_input(const InputError& error) {
   return static_cast<int>(ExitCode::wrong_input);
 }
 
+/// All commands with their arguments.
+class Commands {
+ public:
+  Commands(CLI::App& app, const ProgramPurpose& purpose)
+      : app_(app), purpose_(purpose), new_plugin_(app, purpose.templates) {
+    declare_of_scenes();
+    declare_texts();
+    declare_plugins();
+  }
+
+  /// Does what the arguments, which have been parsed, ask for.
+  ExitCode run() {
+    take_plugins_of_environment();
+    for (const std::string& file : plugins_) load_plugin_of_user(file, {"--plugin"});
+    for (const std::string& folder : plugin_folders_) trust_plugins_in(folder, {"--plugins"});
+    print_texts();
+    if (*show_) print_scene(scene_.read());
+    if (*fractures_) std::cout << fracture_table(scene_.read().geometry.fractures);
+    if (*graph_) draw_graph(Model(scene_.read()), picture_);
+    if (*check_) check_scene(scene_.read());
+    if (*report_) std::cout << "report: " << write_report(reported_).string() << "\n";
+    if (new_plugin_.is_called()) new_plugin_.run();
+    if (compare_.is_called()) return compare_.run();
+    if (converge_.is_called()) return converge_.run();
+    if (schemes_.is_called()) return schemes_.run();
+    if (sweep_.is_called()) return sweep_.run();
+    return *run_ ? run_of_user() : ExitCode::done;
+  }
+
+ private:
+  void declare_of_scenes() {
+    for (CLI::App* command : {run_, check_, show_, fractures_, graph_}) scene_.add_to(*command);
+    run_->add_option("-o,--output", folder_, "Folder for the results; results/<scene> by default")->type_name("FOLDER");
+    restart_ = run_->add_option("--restart", checkpoint_,
+                                "Continues from a checkpoint; by default that in the results of the scene")
+                   ->expected(0, 1)
+                   ->type_name("CHECKPOINT");
+    run_->add_flag("-q,--quiet", options_.quiet, "Prints nothing unless something is wrong");
+    report_->add_option("folder", reported_, "Where a run has written its results")->required()->type_name("FOLDER");
+    graph_
+        ->add_option("-o,--output", picture_,
+                     "A .dot or .svg file; without it the graph is printed in the dot language")
+        ->type_name("PICTURE");
+  }
+
+  void declare_texts() {
+    explain_->add_option("name", explained_, "As 'sprekk list' or a scene writes them, for example grow iterate")
+        ->required()
+        ->type_name("NAME");
+    schema_->add_option("file", schema_of_, "scene or study")->check(CLI::IsMember({"scene", "study"}));
+    reference_->add_option("folder", reference_folder_, "Where to")->required()->type_name("FOLDER");
+    completion_->add_option("shell", shell_, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
+  }
+
+  void declare_plugins() {
+    for (CLI::App* command : {run_, check_, show_, fractures_, graph_, list_, explain_, schema_, reference_,
+                              sweep_.command(), converge_.command(), schemes_.command()}) {
+      command
+          ->add_option("--plugin", plugins_,
+                       "Loads a shared library with further components and couplers; once for each. SPREKK_PLUGINS "
+                       "lists more")
+          ->allow_extra_args(false)
+          ->type_name("FILE");
+      command
+          ->add_option("--plugins", plugin_folders_,
+                       "Trusts the shared libraries in a folder: those that a scene names by 'plugins' are loaded; "
+                       "once for each. SPREKK_PLUGIN_FOLDERS lists more")
+          ->allow_extra_args(false)
+          ->type_name("FOLDER");
+    }
+  }
+
+  void print_texts() const {
+    if (*list_) print_list(std::cout);
+    if (*explain_) print_explanations(explained_, std::cout);
+    if (*schema_) schema_of_ == "study" ? print_study_schema(std::cout) : print_schema(std::cout);
+    if (*manual_) std::cout << manual_page(declared_command(app_), purpose_.summary, build_info().version);
+    if (*completion_)
+      std::cout << (shell_ == "zsh" ? zsh_completion(declared_command(app_)) : bash_completion(declared_command(app_)));
+    if (*reference_) write_reference(reference_folder_);
+  }
+
+  ExitCode run_of_user() {
+    const Scene read = scene_.read();
+    options_.scene_files = scene_.files;
+    if (!folder_.empty()) options_.folder = folder_;
+    if (restart_->count() > 0) options_.checkpoint = find_checkpoint(checkpoint_, folder_, read);
+    return run_scene(read, options_);
+  }
+
+  CLI::App& app_;
+  const ProgramPurpose& purpose_;
+  // In the order in which they are listed.
+  CLI::App* run_ = app_.add_subcommand("run", "Runs a scene");
+  CLI::App* check_ = app_.add_subcommand("check", "Builds everything and solves nothing");
+  SweepCommand sweep_{app_};
+  NewCommand new_plugin_;
+  CLI::App* report_ = app_.add_subcommand("report", "Writes report.html into a folder of results");
+  CompareCommand compare_{app_};
+  ConvergeCommand converge_{app_};
+  SchemesCommand schemes_{app_};
+  CLI::App* show_ =
+      app_.add_subcommand("show", "Prints the scene with every default, and where each value came from");
+  CLI::App* fractures_ =
+      app_.add_subcommand("fractures", "Prints the fractures as a table, also those that are drawn at random");
+  CLI::App* graph_ = app_.add_subcommand("graph", "Draws components, couplers and schedule");
+  CLI::App* list_ = app_.add_subcommand("list", "Lists what exists");
+  CLI::App* explain_ = app_.add_subcommand(
+      "explain", "Explains types, steps of the schedule, sections of a scene, parameters, laws and accelerators");
+  CLI::App* schema_ = app_.add_subcommand("schema", "Prints the JSON schema of scenes, or of studies");
+  CLI::App* reference_ = app_.add_subcommand("reference", "Writes the reference pages");
+  CLI::App* manual_ = app_.add_subcommand("man", "Prints the manual page, for man");
+  CLI::App* completion_ = app_.add_subcommand("completion", "Prints a script that completes commands in a shell");
+
+  SceneArguments scene_;
+  RunOptions options_;
+  CLI::Option* restart_ = nullptr;
+  std::string folder_, checkpoint_, reference_folder_, picture_, reported_, schema_of_ = "scene", shell_;
+  std::vector<std::string> explained_, plugins_, plugin_folders_;
+};
+
 }  // namespace
 
 int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
@@ -123,75 +244,7 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   CLI::App app(purpose.description);
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
-
-  SceneArguments scene;
-  RunOptions run;
-  std::string folder, checkpoint, reference_folder, picture, reported, schema_of = "scene", shell;
-
-  CLI::App* run_command = app.add_subcommand("run", "Runs a scene");
-  scene.add_to(*run_command);
-  run_command->add_option("-o,--output", folder, "Folder for the results; results/<scene> by default")
-      ->type_name("FOLDER");
-  CLI::Option* restart = run_command
-                             ->add_option("--restart", checkpoint,
-                                          "Continues from a checkpoint; by default that in the results of the scene")
-                             ->expected(0, 1)
-                             ->type_name("CHECKPOINT");
-  run_command->add_flag("-q,--quiet", run.quiet, "Prints nothing unless something is wrong");
-  CLI::App* check_command = app.add_subcommand("check", "Builds everything and solves nothing");
-  scene.add_to(*check_command);
-  SweepCommand sweep(app);
-  NewCommand new_plugin(app, purpose.templates);
-  CLI::App* report_command = app.add_subcommand("report", "Writes report.html into a folder of results");
-  report_command->add_option("folder", reported, "Where a run has written its results")
-      ->required()
-      ->type_name("FOLDER");
-  CompareCommand compare(app);
-  ConvergeCommand converge(app);
-  SchemesCommand schemes(app);
-  CLI::App* show_command =
-      app.add_subcommand("show", "Prints the scene with every default, and where each value came from");
-  scene.add_to(*show_command);
-  CLI::App* fractures_command =
-      app.add_subcommand("fractures", "Prints the fractures as a table, also those that are drawn at random");
-  scene.add_to(*fractures_command);
-  CLI::App* graph_command = app.add_subcommand("graph", "Draws components, couplers and schedule");
-  scene.add_to(*graph_command);
-  graph_command
-      ->add_option("-o,--output", picture, "A .dot or .svg file; without it the graph is printed in the dot language")
-      ->type_name("PICTURE");
-  CLI::App* list_command = app.add_subcommand("list", "Lists what exists");
-  CLI::App* explain_command = app.add_subcommand(
-      "explain", "Explains types, steps of the schedule, sections of a scene, parameters, laws and accelerators");
-  std::vector<std::string> explained;
-  explain_command->add_option("name", explained, "As 'sprekk list' or a scene writes them, for example grow iterate")
-      ->required()
-      ->type_name("NAME");
-  CLI::App* schema_command = app.add_subcommand("schema", "Prints the JSON schema of scenes, or of studies");
-  schema_command->add_option("file", schema_of, "scene or study")->check(CLI::IsMember({"scene", "study"}));
-  CLI::App* reference_command = app.add_subcommand("reference", "Writes the reference pages");
-  reference_command->add_option("folder", reference_folder, "Where to")->required()->type_name("FOLDER");
-  CLI::App* manual_command = app.add_subcommand("man", "Prints the manual page, for man");
-  CLI::App* completion_command = app.add_subcommand("completion", "Prints a script that completes commands in a shell");
-  std::vector<std::string> plugins, plugin_folders;
-  for (CLI::App* command :
-       {run_command, check_command, show_command, fractures_command, graph_command, list_command, explain_command,
-        schema_command, reference_command, sweep.command(), converge.command(), schemes.command()}) {
-    command
-        ->add_option("--plugin", plugins,
-                     "Loads a shared library with further components and couplers; once for each. SPREKK_PLUGINS lists "
-                     "more")
-        ->allow_extra_args(false)
-        ->type_name("FILE");
-    command
-        ->add_option("--plugins", plugin_folders,
-                     "Trusts the shared libraries in a folder: those that a scene names by 'plugins' are loaded; once "
-                     "for each. SPREKK_PLUGIN_FOLDERS lists more")
-        ->allow_extra_args(false)
-        ->type_name("FOLDER");
-  }
-  completion_command->add_option("shell", shell, "bash or zsh")->required()->check(CLI::IsMember({"bash", "zsh"}));
-
+  Commands commands(app, purpose);
   try {
     require_command(app, argc, argv);
   } catch (const InputError& error) {
@@ -203,37 +256,8 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::wrong_input);
   }
-
   try {
-    take_plugins_of_environment();
-    for (const std::string& file : plugins) load_plugin_of_user(file, {"--plugin"});
-    for (const std::string& folder : plugin_folders) trust_plugins_in(folder, {"--plugins"});
-    if (*list_command) print_list(std::cout);
-    if (*explain_command) print_explanations(explained, std::cout);
-    if (*schema_command) schema_of == "study" ? print_study_schema(std::cout) : print_schema(std::cout);
-    if (*manual_command) std::cout << manual_page(declared_command(app), purpose.summary, build_info().version);
-    if (*completion_command)
-      std::cout << (shell == "zsh" ? zsh_completion(declared_command(app)) : bash_completion(declared_command(app)));
-    if (*reference_command) write_reference(reference_folder);
-    if (*show_command) print_scene(scene.read());
-    if (*fractures_command) std::cout << fracture_table(scene.read().geometry.fractures);
-    if (*graph_command) draw_graph(Model(scene.read()), picture);
-    if (*check_command) check_scene(scene.read());
-    if (*report_command) std::cout << "report: " << write_report(reported).string() << "\n";
-    if (new_plugin.is_called()) new_plugin.run();
-
-    if (compare.is_called()) return static_cast<int>(compare.run());
-    if (converge.is_called()) return static_cast<int>(converge.run());
-    if (schemes.is_called()) return static_cast<int>(schemes.run());
-    if (sweep.is_called()) return static_cast<int>(sweep.run());
-    if (*run_command) {
-      const Scene read = scene.read();
-      run.scene_files = scene.files;
-      if (!folder.empty()) run.folder = folder;
-      if (restart->count() > 0) run.checkpoint = find_checkpoint(checkpoint, folder, read);
-      return static_cast<int>(run_scene(read, run));
-    }
-    return 0;
+    return static_cast<int>(commands.run());
   } catch (const InputError& error) {
     return answer_wrong_input(error);
   } catch (const std::exception& error) {

@@ -52,10 +52,7 @@ Spec side_spec(EndCondition& end) {
 
 }  // namespace
 
-Spec Options::spec() {
-  Spec spec("fracture_flow/tpfa",
-            "Flow in fractures (the paper's Eq. 8): two-point flux approximation along piecewise linear fractures.");
-  spec.ignore("type");
+void Options::declare_fluid(Spec& spec) {
   spec.data("viscosity", viscosity,
             {.unit = "Pa*s",
              .range = positive(),
@@ -74,17 +71,9 @@ Spec Options::spec() {
              .material = true,
              .in_time = true});
   usually(spec, "fluid_compressibility", usual_compressibility());
-  spec.data("initial_aperture", initial_aperture,
-            {.unit = "m",
-             .range = positive(),
-             .doc = "Aperture of the undeformed fracture.",
-             .source = "a^0 below the paper's Eq. 8",
-             .required = true,
-             .fixed = "it is what the run starts from, and what opens adds to it"});
-  usually(spec, "initial_aperture", usual_aperture());
-  usually(spec, "initial_aperture", usual_zone_width(), conducts_as_given);
-  spec.data("initial_pressure", initial_pressure,
-            {.unit = "Pa", .doc = "Pressure at the start.", .fixed = "it is what the run starts from"});
+}
+
+void Options::declare_grown(Spec& spec) {
   Spec grown("grown", "What the cells of a fracture that grows start with.");
   grown.quantity("aperture", grown_aperture,
                  {.unit = "m",
@@ -97,8 +86,9 @@ Spec Options::spec() {
                 {"filled", "they are full, at the pressure of the cell that they continue"}},
                {.doc = "The fluid in it at the moment of growth."});
   spec.section("grown", grown, {.doc = "What the cells of a fracture that grows start with."});
-  spec.quantity("aperture_floor", aperture_floor,
-                {.unit = "m", .range = positive(), .doc = "The hydraulic aperture does not fall below this."});
+}
+
+void Options::declare_conduction(Spec& spec) {
   spec.choice(
       "transmissivity", transmissivity,
       {{"cubic_law", "a^3/12"}, {"constant", "the value given as transmissivity_value"}},
@@ -131,6 +121,77 @@ Spec Options::spec() {
   wall("left", wall_permeability[0], "left");
   wall("right", wall_permeability[1], "right");
   spec.section("wall_permeability", walls, {.doc = "The normal permeability kappa of single walls."});
+}
+
+void Options::declare_places(Spec& spec) {
+  static Injection example_injection;
+  spec.named_sections("injection", injection_spec(example_injection),
+                      [this](const std::string& key, const Origin& origin) {
+                        injections[key].where.origin = origin;
+                        return injection_spec(injections[key]);
+                      },
+                      {.doc = "Injections by name."});
+  static PrescribedPressure example_prescribed;
+  spec.named_sections("prescribed", prescribed_spec(example_prescribed),
+                      [this](const std::string& key, const Origin& origin) {
+                        prescribed[key].where.origin = origin;
+                        return prescribed_spec(prescribed[key]);
+                      },
+                      {.doc = "Prescribed pressures by name."});
+  static EndCondition example_end;
+  spec.named_sections("boundary", side_spec(example_end),
+                      [this](const std::string& key, const Origin& origin) {
+                        boundary_origins[key] = origin;
+                        return side_spec(ends[key]);
+                      },
+                      {.doc = "Where fractures end on a side; else no fluid flows out there."});
+}
+
+void Options::check(const Node& node) {
+  for (const auto& [side, end] : ends)
+    if (end.pressure) boundary.insert_or_assign(side, *end.pressure);
+  if (const Origin* through = crossings.find_through(); through && !is_constant() && !has_given_walls())
+    throw InputError(*through, "nothing fills the crossing in which a fracture is to go through",
+                     "the transmissivity follows from the aperture, so that all fractures are open",
+                     "give the walls of the fracture a 'normal_permeability_value', or give the crossing a "
+                     "'permeability'");
+  if (const Node* given = node.find("fractures")) fractures_origin = given->origin;
+  for (const char* key : {"transmissivity", "transmissivity_value"})
+    if (has_law && node.find(key) && !node.find(key)->is_null())
+      throw InputError(node.find(key)->origin, std::string("'") + key + "' contradicts 'law'",
+                       "both say how the fracture conducts", "remove one of them");
+  if (cavitation && !gravity.is_zero())
+    throw InputError(node.find("cavitation")->origin, "'cavitation' does not go with gravity",
+                     "fluid would run down in a fracture that is partly empty, which is not modelled",
+                     "remove one of the two");
+  if (!has_law && transmissivity == "constant" && !transmissivity_value)
+    throw InputError(node.origin, "'transmissivity_value' is missing", "the transmissivity is constant",
+                     "give it in m^3");
+  if (normal_permeability == "constant" && !normal_permeability_value)
+    throw InputError(node.origin, "'normal_permeability_value' is missing", "the normal permeability is constant",
+                     "give it in m/(Pa*s)");
+}
+
+Spec Options::spec() {
+  Spec spec("fracture_flow/tpfa",
+            "Flow in fractures (the paper's Eq. 8): two-point flux approximation along piecewise linear fractures.");
+  spec.ignore("type");
+  declare_fluid(spec);
+  spec.data("initial_aperture", initial_aperture,
+            {.unit = "m",
+             .range = positive(),
+             .doc = "Aperture of the undeformed fracture.",
+             .source = "a^0 below the paper's Eq. 8",
+             .required = true,
+             .fixed = "it is what the run starts from, and what opens adds to it"});
+  usually(spec, "initial_aperture", usual_aperture());
+  usually(spec, "initial_aperture", usual_zone_width(), conducts_as_given);
+  spec.data("initial_pressure", initial_pressure,
+            {.unit = "Pa", .doc = "Pressure at the start.", .fixed = "it is what the run starts from"});
+  declare_grown(spec);
+  spec.quantity("aperture_floor", aperture_floor,
+                {.unit = "m", .range = positive(), .doc = "The hydraulic aperture does not fall below this."});
+  declare_conduction(spec);
   spec.quantity(
       "cavitation", cavitation,
       {.unit = "Pa",
@@ -153,27 +214,7 @@ Spec Options::spec() {
              {.doc = "Fractures in which there is a flow, `joints_*` for all that begin so; all by default. The others "
                      "are dry: nothing flows in them or "
                      "passes through their walls, and no pressure pushes them open."});
-  static Injection example_injection;
-  spec.named_sections("injection", injection_spec(example_injection),
-                      [this](const std::string& key, const Origin& origin) {
-                        injections[key].where.origin = origin;
-                        return injection_spec(injections[key]);
-                      },
-                      {.doc = "Injections by name."});
-  static PrescribedPressure example_prescribed;
-  spec.named_sections("prescribed", prescribed_spec(example_prescribed),
-                      [this](const std::string& key, const Origin& origin) {
-                        prescribed[key].where.origin = origin;
-                        return prescribed_spec(prescribed[key]);
-                      },
-                      {.doc = "Prescribed pressures by name."});
-  static EndCondition example_end;
-  spec.named_sections("boundary", side_spec(example_end),
-                      [this](const std::string& key, const Origin& origin) {
-                        boundary_origins[key] = origin;
-                        return side_spec(ends[key]);
-                      },
-                      {.doc = "Where fractures end on a side; else no fluid flows out there."});
+  declare_places(spec);
   crossings.declare(spec, "permeability",
                     {.unit = "m^2",
                      .range = non_negative(),
@@ -181,30 +222,7 @@ Spec Options::spec() {
                             "of K_i/a of the fractures that meet, where their transmissivities are given, and the "
                             "crossing is open where they follow from apertures.",
                      .source = "Flemisch and others (2018), sec. 4.3"});
-  spec.check([this](const Node& node) {
-    for (const auto& [side, end] : ends)
-      if (end.pressure) boundary.insert_or_assign(side, *end.pressure);
-    if (const Origin* through = crossings.find_through(); through && !is_constant() && !has_given_walls())
-      throw InputError(*through, "nothing fills the crossing in which a fracture is to go through",
-                       "the transmissivity follows from the aperture, so that all fractures are open",
-                       "give the walls of the fracture a 'normal_permeability_value', or give the crossing a "
-                       "'permeability'");
-    if (const Node* given = node.find("fractures")) fractures_origin = given->origin;
-    for (const char* key : {"transmissivity", "transmissivity_value"})
-      if (has_law && node.find(key) && !node.find(key)->is_null())
-        throw InputError(node.find(key)->origin, std::string("'") + key + "' contradicts 'law'",
-                         "both say how the fracture conducts", "remove one of them");
-    if (cavitation && !gravity.is_zero())
-      throw InputError(node.find("cavitation")->origin, "'cavitation' does not go with gravity",
-                       "fluid would run down in a fracture that is partly empty, which is not modelled",
-                       "remove one of the two");
-    if (!has_law && transmissivity == "constant" && !transmissivity_value)
-      throw InputError(node.origin, "'transmissivity_value' is missing", "the transmissivity is constant",
-                       "give it in m^3");
-    if (normal_permeability == "constant" && !normal_permeability_value)
-      throw InputError(node.origin, "'normal_permeability_value' is missing", "the normal permeability is constant",
-                       "give it in m/(Pa*s)");
-  });
+  spec.check([this](const Node& node) { check(node); });
   return spec;
 }
 

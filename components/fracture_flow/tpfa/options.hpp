@@ -77,6 +77,13 @@ struct Options {
   const std::optional<Data>& given_transmissivity() const {
     return has_law ? law.transmissivity : transmissivity_value;
   }
+
+ private:
+  void declare_fluid(Spec& spec);
+  void declare_grown(Spec& spec);
+  void declare_conduction(Spec& spec);
+  void declare_places(Spec& spec);  ///< of injections, prescribed pressures and sides
+  void check(const Node& node);
 };
 
 }  // namespace sprekk::fracture_flow

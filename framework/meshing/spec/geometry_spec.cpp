@@ -192,6 +192,26 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
   return spec;
 }
 
+namespace {
+
+/// The numbers of rectangles of a structured mesh.
+void take_cells(const Node& whole, const std::vector<double>& cells, MeshOptions& options) {
+  const Origin origin = origin_of(whole, "cells");
+  if (options.kind != MeshOptions::Kind::structured) {
+    throw InputError(origin, "an unstructured mesh has no cells along x and y", "its edges have a size",
+                     "write kind: structured, or size: …");
+  }
+  constexpr double most = 1e7;
+  if (cells.size() != 2 || cells[0] != std::floor(cells[0]) || cells[1] != std::floor(cells[1]) ||
+      std::max(cells[0], cells[1]) > most) {
+    throw InputError(origin, "cells are not two whole numbers", "they count the rectangles along x and y",
+                     "write cells: [20, 20]");
+  }
+  options.cells = {static_cast<int>(cells[0]), static_cast<int>(cells[1])};
+}
+
+}  // namespace
+
 Spec mesh_spec(MeshOptions& options) {
   struct Input {
     std::string kind = "unstructured", shape = "triangles";
@@ -256,20 +276,7 @@ Spec mesh_spec(MeshOptions& options) {
     options.origin = whole.origin;
     options.kind = input->kind == "structured" ? MeshOptions::Kind::structured : MeshOptions::Kind::unstructured;
     options.shape = input->shape == "triangles" ? MeshOptions::Shape::triangles : MeshOptions::Shape::quadrilaterals;
-    const auto& cells = input->cells;
-    if (cells.empty()) return;
-    const Origin origin = origin_of(whole, "cells");
-    if (options.kind != MeshOptions::Kind::structured) {
-      throw InputError(origin, "an unstructured mesh has no cells along x and y", "its edges have a size",
-                       "write kind: structured, or size: …");
-    }
-    constexpr double most = 1e7;
-    if (cells.size() != 2 || cells[0] != std::floor(cells[0]) || cells[1] != std::floor(cells[1]) ||
-        std::max(cells[0], cells[1]) > most) {
-      throw InputError(origin, "cells are not two whole numbers", "they count the rectangles along x and y",
-                       "write cells: [20, 20]");
-    }
-    options.cells = {static_cast<int>(cells[0]), static_cast<int>(cells[1])};
+    if (!input->cells.empty()) take_cells(whole, input->cells, options);
   });
   return spec;
 }
