@@ -11,6 +11,8 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/counts_later.hpp"
+#include "framework/assembly/piecewise_smooth.hpp"
+#include "framework/assembly/stabilizes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/schedule/passes/ends_of_passes.hpp"
 #include "framework/schedule/passes/pass_changes.hpp"
@@ -69,9 +71,9 @@ IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<Schedule
       throw unknown_name(options_.acceleration.over_origin, "field that is solved inside", name, names);
   for (std::size_t u = 0; u < fields_.size(); ++u)
     if (over.empty() || std::ranges::count(over, names[u])) accelerated_.push_back(u);
-  if (!accelerator_ || !context.histories) return;
-  history_ = fmt::format("iterate.{}.", context.histories->size());
-  context.histories->push_back(this);
+  if (!accelerator_ || !context.states) return;
+  history_ = fmt::format("iterate.{}.", context.states->size());
+  context.states->push_back(this);
 }
 
 void IterateStep::accepted() { accelerator_->accepted(); }
@@ -206,7 +208,7 @@ std::string IterateStep::remedies() const {
     text += accelerator_ ? ", or" : ",";
     text += " give one of them 'stabilize: response'";
     std::set<std::string> offered;
-    for (const Part* part : parts_)
+    for (const auto* part : parts_with<Stabilizes>(parts_))
       for (const std::string& name : part->stabilizations()) offered.insert(name);
     for (const std::string& name : offered) text += " or '" + name + "'";
   }
@@ -348,7 +350,7 @@ StepStatus IterateStep::make_passes(const StepTime& step) {
     }
     of_newton = std::max(of_newton, inner.effort());
     std::uint64_t state = 0;
-    for (const Part* part : parts_) state = state * 1000003 + part->discrete_state();
+    for (const auto* part : parts_with<PiecewiseSmooth>(parts_)) state = state * 1000003 + part->discrete_state();
 
     Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
     if (!options_.has_substeps) assemble_all(assembly, parts_, step);
