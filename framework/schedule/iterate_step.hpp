@@ -62,6 +62,7 @@ class IterateStep : public ScheduleStep, public KeepsState {
   void restore(const std::map<std::string, Vector>& state) override;
 
  private:
+  class Passes;  // iterate_passes.cpp
   StepStatus make_passes(const StepTime& step);
   /// Counts what was exchanged with the fields of all solves together, whose equations hold: a solve has counted what
   /// it knew of the others when it was its turn. What passes have left of balances is counted later (CountsLater).
