@@ -6,7 +6,9 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "couplers/contacts.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/follows_waiting.hpp"
+#include "framework/assembly/stabilizes.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -26,7 +28,7 @@ struct ApertureOptions {
 /// Determines the aperture. Where the flow is solved while the walls wait, the aperture would stay whatever the
 /// pressure is, and fluid that cannot leave an open fracture would get a pressure of any size: with the stabilization
 /// fixed_stress the aperture follows the pressure as the walls do.
-class Aperture : public Coupler, public FollowsWaiting, public CountsAmounts {
+class Aperture : public Coupler, public FollowsMesh, public Stabilizes, public FollowsWaiting, public CountsAmounts {
  public:
   Aperture(const CouplerContext& context, const ApertureOptions&)
       : Coupler(context.name), mesh_(context.mesh), contacts_(context), fluid_(context.the<FractureFluid>()) {

@@ -15,9 +15,11 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/counts_later.hpp"
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/holds_amounts.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
-#include "framework/assembly/stabilizes_preconditioner.hpp"
+#include "framework/assembly/stabilizes.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
@@ -40,7 +42,9 @@ namespace {
 /// alpha and the compressibility of the grains are taken at the end of the step. They multiply changes of the state: a
 /// change of alpha or of the compressibility alone moves no fluid.
 class Biot : public Coupler,
-             public StabilizesPreconditioner,
+             public KeepsState,
+             public FollowsMesh,
+             public Stabilizes,
              public KeepsTotals,
              public CountsAmounts,
              public CountsLater,

@@ -6,6 +6,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
@@ -41,7 +42,7 @@ struct BorderExchangeOptions {
 ///
 /// `exchanged` has the amounts that the first flow has let into cells of the second, `counted` what the second has
 /// counted of them. So nothing is lost when the two are solved one after the other, or one of them in substeps.
-class BorderExchange : public Coupler, public CountsAmounts, public RestsTogether {
+class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, public RestsTogether {
  public:
   BorderExchange(const CouplerContext& context, const BorderExchangeOptions& options)
       : Coupler(context.name), mesh_(context.mesh), switch_times_(options.resistance.switch_times()) {

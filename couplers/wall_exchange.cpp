@@ -10,6 +10,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -37,7 +38,7 @@ struct WallExchangeOptions {
 ///
 /// `exchanged` has the amount that the matrix has received through each wall, `counted` the part of it that the
 /// fracture has counted. So nothing is lost when the two are solved one after the other, or one of them in substeps.
-class WallExchange : public Coupler, public CountsAmounts, public RestsTogether {
+class WallExchange : public Coupler, public KeepsState, public CountsAmounts, public RestsTogether {
  public:
   WallExchange(const CouplerContext& context, const WallExchangeOptions&)
       : Coupler(context.name),

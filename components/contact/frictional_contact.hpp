@@ -12,10 +12,12 @@
 #include "components/contact/multiplier.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/gains_from_stages.hpp"
-#include "framework/assembly/iterate_dependent.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/notes_start.hpp"
+#include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/assembly/softening.hpp"
 #include "framework/scene/component.hpp"
@@ -62,8 +64,10 @@ struct Options;
 /// Cells without friction never take that piece: they do not dilate, and their f_t is zero up to round-off, so it has
 /// no direction in which they could be about to slide.
 class FrictionalContact : public Component,
+                          public PiecewiseSmooth,
+                          public KeepsState,
+                          public FollowsMesh,
                           public FractureContact,
-                          public IterateDependent,
                           public CountsFromHere,
                           public NotesStart,
                           public GainsFromStages,

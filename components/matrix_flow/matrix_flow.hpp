@@ -15,10 +15,13 @@
 #include "components/matrix_flow/flux_operators.hpp"
 #include "components/matrix_flow/open_border.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
+#include "framework/assembly/counts_work.hpp"
+#include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/may_store_nothing.hpp"
-#include "framework/assembly/nonlinear_in_pieces.hpp"
+#include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
@@ -77,6 +80,10 @@ struct Options {
 /// discretization has their cells alone (discretize_inside). The rows of all other cells are p − p_old = 0, times a
 /// storage, and the pressure there is no more than the number against which rock without fluid is loaded by nothing.
 class MatrixFlow : public Component,
+                   public PiecewiseSmooth,
+                   public KeepsState,
+                   public FollowsMesh,
+                   public CountsWork,
                    public MatrixFluid,
                    public MatrixWalls,
                    public MatrixFluxes,
@@ -84,8 +91,7 @@ class MatrixFlow : public Component,
                    public BuoyantMatrix,
                    public KeepsTotals,
                    public LivesInPart,
-                   public MayStoreNothing,
-                   public NonlinearInPieces {
+                   public MayStoreNothing {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };

@@ -12,6 +12,9 @@
 #include "components/poromechanics/settled_rock.hpp"
 #include "components/poromechanics/stress_discretization.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/counts_work.hpp"
+#include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/notes_start.hpp"
 #include "framework/scene/component.hpp"
 
@@ -23,6 +26,9 @@ namespace sprekk::poromechanics {
 /// loads the rock: u is counted from the state before equilibrium.
 /// Each pair of rows balances the forces on one cell (N/m): −(sum of the forces on its faces) − body force = 0.
 class Rock : public Component,
+             public KeepsState,
+             public FollowsMesh,
+             public CountsWork,
              public PoroelasticRock,
              public RockWalls,
              public RockState,

@@ -9,6 +9,7 @@
 #include "components/capabilities/wells.hpp"
 #include "components/wells/options.hpp"
 #include "framework/assembly/keeps_totals.hpp"
+#include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::wells {
@@ -36,7 +37,7 @@ Binding binding(const Control& control, double pressure, double rate, double res
 /// its own rate and pressure, also beside a well with a million times the rate. Newton's method with it is an
 /// active-set method, which changes branches within a solve. The equations of the rates come from a coupler
 /// (WellPressures::rate), which knows the cells around the places.
-class LimitedWells : public Component, public WellPressures, public KeepsTotals {
+class LimitedWells : public Component, public PiecewiseSmooth, public WellPressures, public KeepsTotals {
  public:
   LimitedWells(const ComponentContext& context, const Options& options);
 

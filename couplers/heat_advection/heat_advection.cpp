@@ -12,6 +12,8 @@
 #include "couplers/heat_advection/streams.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -26,7 +28,7 @@ namespace {
 ///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)),
 /// so that a uniform temperature stays uniform whatever the fluxes are, and nothing is lost or made: heat is conserved
 /// in each schedule, also where the streams are those of a flow that is solved before or after.
-class HeatAdvection : public Coupler, public KeepsTotals, public CountsAmounts {
+class HeatAdvection : public Coupler, public KeepsState, public FollowsMesh, public KeepsTotals, public CountsAmounts {
  public:
   HeatAdvection(const CouplerContext& context, const HeatAdvectionOptions& options)
       : Coupler(context.name), mesh_(context.mesh), options_(options), origin_(context.origin) {

@@ -12,6 +12,7 @@
 #include "couplers/two_level/along_fracture.hpp"
 #include "couplers/two_level/nodal_values.hpp"
 #include "couplers/two_level/pressure_near_tips.hpp"
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/assert.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/scene/registry.hpp"
@@ -60,7 +61,7 @@ struct TwoLevelOptions {
   }
 };
 
-class TwoLevel : public Coupler, public TipSurroundings {
+class TwoLevel : public Coupler, public FollowsMesh, public TipSurroundings {
  public:
   TwoLevel(const CouplerContext& context, const TwoLevelOptions& options)
       : Coupler(context.name),

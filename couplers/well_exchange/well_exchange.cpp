@@ -15,6 +15,7 @@
 #include "couplers/well_exchange/equivalent_radius.hpp"
 #include "couplers/well_exchange/well_patch.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/point_source.hpp"
 #include "framework/invariants.hpp"
@@ -44,7 +45,7 @@ struct WellExchangeOptions {
 /// R = 1/index where the scene gives one. The rows are pressures: as rates, a place with a small index would be judged
 /// by what flows at one with a large index. The terms of the rock are constant, whichever limit of the well binds: what
 /// switches is on the side of the wells.
-class WellExchange : public Coupler {
+class WellExchange : public Coupler, public FollowsMesh {
  public:
   WellExchange(const CouplerContext& context, const WellExchangeOptions&)
       : Coupler(context.name),

@@ -11,13 +11,10 @@
 #include "framework/assembly/notes.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
-#include "framework/field/known_within_cells.hpp"
 #include "framework/field/output_field.hpp"
 #include "framework/output/profile_entry.hpp"
 
 namespace sprekk {
-
-struct MeshChange;
 
 /// The totals of one conserved quantity since the start of the run, which fulfil stored + outflow = injected.
 struct Balance {
@@ -43,19 +40,10 @@ struct Dependence {
   bool ends_with_response = false;
 };
 
-/// The diagonals that stabilize a split (see SolveStep): residual(row) += diagonal · (value − value at the solve's
-/// start).
-using Stabilization = std::map<const Field*, Vector>;
-
-/// How the parts support an attempt of Newton's method. `with_shortcuts`: the first attempt, with all shortcuts that
-/// make most steps quick. `without_shortcuts`: an attempt after a failure. `piecewise`: the discrete state
-/// distinguishes all pieces of piecewise linear terms, and derivatives are those of the piece in which the values are,
-/// not of the piece in which the update is expected. `piecewise_linear`: the same, and coefficients that make terms
-/// nonlinear within a piece keep the values that they have at the moment of the call.
-enum class SearchMode { with_shortcuts, without_shortcuts, piecewise, piecewise_linear };
-
 /// A component or a coupler, as the schedule sees it. Repeating a step after a rewind must give the same bits: whatever
-/// a part keeps between calls is in fields, or follows from the mesh, the parameters and the time of the step.
+/// a part keeps between calls is in fields, or follows from the mesh, the parameters and the time of the step; else it
+/// is a KeepsState. What few parts need are capabilities, classes that they inherit as well: PiecewiseSmooth,
+/// KeepsState, FollowsMesh, Stabilizes, CountsWork and others beside this file.
 class Part {
  public:
   virtual ~Part();
@@ -72,21 +60,6 @@ class Part {
   /// assembled.
   virtual void constrain(Assembly&) const {}
 
-  /// Called after the fields have been accepted or rewound, for state that is not in fields.
-  virtual void accepted() {}
-  virtual void rewound() {}
-  /// Adds what the part knows of the accepted values of a field within cells, beside their means. New cells take it
-  /// over when the mesh changes (transferred_cells).
-  virtual void add_known_within_cells(const Field& /*field*/, KnownWithinCells& /*known*/) const {}
-  /// Called on a part that has been built on a changed mesh, after its fields have received their values. Copies the
-  /// state outside of fields from `before`, the same part on the old mesh, and gives new entities their initial state.
-  virtual void carry_over(const Part& /*before*/, const MeshChange& /*change*/) {}
-  /// Called when the equilibrium on the new mesh has been found, before it is accepted.
-  virtual void settled(const MeshChange& /*change*/) {}
-  /// For checkpoints: `save` adds state that is not in fields as named values, `restore` reads these values.
-  virtual void save(std::map<std::string, Vector>& /*state*/) const {}
-  virtual void restore(const std::map<std::string, Vector>& /*state*/) {}
-
   /// Keeps the cumulative balances (derived fields) of the fields that a `solve` has just determined: what was stored,
   /// what flowed out.
   virtual void after_solve(const std::vector<Field*>& /*solved*/, const StepTime&) {}
@@ -98,29 +71,6 @@ class Part {
   /// of backward Euler from accepted values that are extrapolated.
   virtual bool allows_stages() const { return false; }
 
-  /// Changes whenever the discrete state (which cells stick, slip, are open) does; the cycle detector reads it.
-  virtual std::uint64_t discrete_state() const { return 0; }
-  /// Sets how the part supports Newton's method from now on.
-  virtual void set_search_mode(SearchMode) {}
-  /// Holds the coefficients that make terms nonlinear within a piece at their values now, c_0, until they are released.
-  virtual void hold_coefficients() {}
-  /// From now on held coefficients are c_0^(1 − share) c^share with the current value c; with a share of 1 they are no
-  /// longer held.
-  virtual void release_coefficients(double /*share*/) {}
-  /// Moves the fields to where one-sided conditions (contact) are inactive, so that the unknowns that these conditions
-  /// hold are free.
-  virtual void deactivate_conditions() {}
-  /// Finds cells that have left their discrete state in this step by a jump although they could have stayed, and keeps
-  /// them in that state from now on, whatever their conditions are. Returns their number.
-  virtual int keep_states() { return 0; }
-  /// Releases kept cells whose conditions are violated at the present values, and returns their number.
-  virtual int release_violated() { return 0; }
-  /// Releases all kept cells.
-  virtual void release_kept() {}
-  /// The names of the stabilizations that the part offers to split schemes.
-  virtual std::vector<std::string> stabilizations() const;
-  /// Adds the diagonals of a named stabilization for the fields that the part can stabilize.
-  virtual void stabilize(const std::string& /*scheme*/, Stabilization&) const {}
   /// Pairs of components of which the first cannot be in a solve without the second.
   virtual std::vector<Dependence> dependences() const;
   /// Declares which unknowns float by a constant, and what holds or ties them.
@@ -136,12 +86,16 @@ class Part {
   /// Adds notes on what the user of a run would not expect of a step. Called on all processes for each step that is
   /// about to be accepted, after report().
   virtual void note_step(Notes&, const StepTime&) const {}
-  /// How often something was computed or reused, for the end-of-run table: name → count.
-  virtual std::map<std::string, long> counts() const;
-  /// Entries of the end-of-run table for the part's own work inside of steps, without the work of the schedule's
-  /// solvers.
-  virtual std::vector<ProfileEntry> efforts() const;
 };
+
+/// The parts that have a capability, in their order.
+template <class Capability>
+std::vector<Capability*> parts_with(const std::vector<Part*>& parts) {
+  std::vector<Capability*> found;
+  for (Part* part : parts)
+    if (auto* able = dynamic_cast<Capability*>(part)) found.push_back(able);
+  return found;
+}
 
 /// Begins a step of all parts. All data come first: what one part discretizes may depend on properties of another.
 void begin_step(const std::vector<Part*>& parts, const StepTime& step);

@@ -1,10 +1,12 @@
 #include "framework/run/effort.hpp"
 
+#include "framework/assembly/counts_work.hpp"
+
 namespace sprekk {
 
 void Effort::retire(const Model& model) {
   model.schedule().add_counts(linear_);
-  for (const Part* part : model.parts()) {
+  for (const auto* part : parts_with<CountsWork>(model.parts())) {
     for (const auto& [name, count] : part->counts()) counts_[name] += count;
     for (const Profile::Entry& effort : part->efforts()) {
       Profile::Entry& entry = efforts_.at(effort.name);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/partition.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -49,7 +50,7 @@ void transfer_fields(const FieldStore& before, const MeshChange& change, const M
       case Location::cell: {
         KnownWithinCells known;
         if (has_new_cells && !old.spec().is_amount)
-          for (const Part* part : old_parts) part->add_known_within_cells(old, known);
+          for (const auto* part : parts_with<FollowsMesh>(old_parts)) part->add_known_within_cells(old, known);
         values = transferred_cells(old, change, old_mesh, new_mesh, known);
         break;
       }
@@ -102,10 +103,12 @@ MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMe
     transfer_fields(before.fields(), grown.change, before.mesh(), model.mesh(), model.fields(), before.parts());
   }
   for (Part* part : model.parts()) part->evaluate_data(data);
-  for (std::size_t i = 0; i < model.parts().size(); ++i) model.parts()[i]->carry_over(*before.parts()[i], grown.change);
+  for (std::size_t i = 0; i < model.parts().size(); ++i)
+    if (auto* follower = dynamic_cast<FollowsMesh*>(model.parts()[i]))
+      follower->carry_over(*before.parts()[i], grown.change);
   begin_step(model.parts(), data);
   result.settling = grown.change.is_at_start ? StepStatus{true, "", 0} : model.growing()[grow_step]->settle(data);
-  for (Part* part : model.parts()) part->settled(grown.change);
+  for (auto* follower : parts_with<FollowsMesh>(model.parts())) follower->settled(grown.change);
   model.accept();
   return result;
 }

@@ -80,10 +80,11 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
     context.check_all_used();
     parts_.push_back(couplers_.back().get());
   }
+  states_ = parts_with<KeepsState>(parts_);
   std::map<std::string, Part*> named;
   for (const auto& component : components_) named[component->name()] = component.get();
-  const ScheduleContext context{
-      mesh_, fields_, parts_, std::move(log), named, scene_.time.start, scene_.time.step, &growing_, &histories_};
+  const ScheduleContext context{mesh_,     fields_, parts_, std::move(log), named, scene_.time.start, scene_.time.step,
+                                &growing_, &states_};
   schedule_ = scene_.schedule(context);
   make_start(context);
   now_doing("the first evaluation of all data");
@@ -354,26 +355,22 @@ void Model::refuse_too_long(const StepTime& step, StepStatus& status) const {
 
 void Model::accept() {
   fields_.accept();
-  for (Part* part : parts_) part->accepted();
-  for (StepHistory* history : histories_) history->accepted();
+  for (KeepsState* state : states_) state->accepted();
 }
 
 void Model::rewind() {
   fields_.rewind();
-  for (Part* part : parts_) part->rewound();
-  for (StepHistory* history : histories_) history->rewound();
+  for (KeepsState* state : states_) state->rewound();
 }
 
 std::map<std::string, Vector> Model::extra_state() const {
   std::map<std::string, Vector> state;
-  for (const Part* part : parts_) part->save(state);
-  for (const StepHistory* history : histories_) history->save(state);
+  for (const KeepsState* keeper : states_) keeper->save(state);
   return state;
 }
 
 void Model::restore_extra_state(const std::map<std::string, Vector>& state) {
-  for (Part* part : parts_) part->restore(state);
-  for (StepHistory* history : histories_) history->restore(state);
+  for (KeepsState* keeper : states_) keeper->restore(state);
 }
 
 std::vector<double> Model::switch_times() const {

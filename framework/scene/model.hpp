@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/scene/scene.hpp"
 #include "framework/schedule/grow_step.hpp"
 #include "framework/schedule/schedule_step.hpp"
 #include "framework/schedule/solve_step.hpp"
-#include "framework/schedule/step_history.hpp"
 
 namespace sprekk {
 
@@ -93,7 +93,7 @@ class Model {
   std::vector<std::unique_ptr<Coupler>> couplers_;
   std::vector<Part*> parts_;
   std::vector<GrowStep*> growing_;
-  std::vector<StepHistory*> histories_;
+  std::vector<KeepsState*> states_;  ///< of parts, then of steps of the schedule
   std::unique_ptr<ScheduleStep> schedule_;
   std::unique_ptr<SolveStep> settle_;  ///< solves for the state at the start, where the scene has `start: settle`
   std::vector<Probe> probes_;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/topology_hash.hpp"
@@ -181,7 +182,7 @@ void take_state_of_run(const std::string& from, Model& model) {
   require_couplers(run, model);
   take_fields(run, model);
   for (Part* part : model.parts()) {
-    part->restore(run.checkpoint.extra);
+    if (auto* state = dynamic_cast<KeepsState*>(part)) state->restore(run.checkpoint.extra);
     if (auto* keeps = dynamic_cast<KeepsTotals*>(part)) keeps->begin_totals();
     const auto* counts = dynamic_cast<const CountsFromHere*>(part);
     if (counts && counts->has_settled_reference() && !model.growing().empty())

@@ -7,15 +7,13 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/counts_later.hpp"
+#include "framework/assembly/stabilizes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/schedule/passes/ends_of_passes.hpp"
-#include "framework/schedule/passes/pass_changes.hpp"
 #include "framework/schedule/passes/round_off_of_values.hpp"
-#include "framework/schedule/passes/stalled_acceleration.hpp"
 
 namespace sprekk {
 
@@ -69,9 +67,9 @@ IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<Schedule
       throw unknown_name(options_.acceleration.over_origin, "field that is solved inside", name, names);
   for (std::size_t u = 0; u < fields_.size(); ++u)
     if (over.empty() || std::ranges::count(over, names[u])) accelerated_.push_back(u);
-  if (!accelerator_ || !context.histories) return;
-  history_ = fmt::format("iterate.{}.", context.histories->size());
-  context.histories->push_back(this);
+  if (!accelerator_ || !context.states) return;
+  history_ = fmt::format("iterate.{}.", context.states->size());
+  context.states->push_back(this);
 }
 
 void IterateStep::accepted() { accelerator_->accepted(); }
@@ -206,7 +204,7 @@ std::string IterateStep::remedies() const {
     text += accelerator_ ? ", or" : ",";
     text += " give one of them 'stabilize: response'";
     std::set<std::string> offered;
-    for (const Part* part : parts_)
+    for (const auto* part : parts_with<Stabilizes>(parts_))
       for (const std::string& name : part->stabilizations()) offered.insert(name);
     for (const std::string& name : offered) text += " or '" + name + "'";
   }
@@ -247,16 +245,6 @@ ResidualCheck IterateStep::check_changes(const std::vector<Vector>& before) cons
   }
   return check;
 }
-
-namespace {
-
-constexpr std::size_t without_progress = 25;                     // passes
-constexpr std::size_t patience = 10, patience_accelerated = 20;  // passes whose changes stay large
-
-/// "pore" of "pore.pressure".
-std::string owner_of(const std::string& field) { return field.substr(0, field.find('.')); }
-
-}  // namespace
 
 StepStatus IterateStep::converged(const StepTime& step, const StepStatus& status) {
   // Each substep has added its exchange to the cumulative balances already.
@@ -308,144 +296,6 @@ void IterateStep::add_counts(LinearCounts& counts) const {
 void IterateStep::note_step(Notes& notes, const StepTime& step) const {
   inside_->note_step(notes, step);
   if (fallback_) fallback_->note_step(notes, step);
-}
-
-StepStatus IterateStep::make_passes(const StepTime& step) {
-  scales_.assign(fields_.size(), 1);
-  ResidualCheck check;
-  PassChanges changes;
-  StalledAcceleration stalled;
-  bool is_plain = false;
-  Vector unaccelerated;  // the values at the start of the plain passes
-  std::uint64_t last_state = 0;
-  std::multiset<std::uint64_t> seen_states;
-  bool is_cycling = false;
-  int of_newton = 0;
-  double change_before = 0;
-  Vector last_change;
-  std::vector<double> residuals;   // after each pass but the first
-  std::vector<double> imbalances;  // after the last passes, while they leave balances alone
-  for (int pass = 1; pass <= options_.until.at_most; ++pass) {
-    *pass_ = pass;
-    const Vector before = pass > 1 ? scaled_values() : Vector();
-    const Vector accelerated = accelerator_ ? accelerated_values() : Vector();
-    std::vector<Vector> values_before;
-    if (criteria_.need_changes() || options_.has_substeps)
-      for (const Field* field : fields_) values_before.push_back(field->now());
-    // Where all rows hold and balances do not, each solve may disturb the balances of the others by round-off, which no
-    // pass makes smaller. The pass then ends after the solve that fulfils the balances.
-    const bool misses_balances_alone = check.rows_hold && !check.balances_hold;
-    const StepStatus inner = misses_balances_alone
-                                 ? inside_->run_until(step, [&] { return coupled_residual(step).converged; })
-                                 : inside_->run(step);
-    if (!inner.converged) {
-      StepStatus failed{false, fmt::format("pass {}: {}", pass, inner.reason), pass};
-      if (!inner.lost_at) return failed;
-      const std::optional<double> size = losses_.size_to_repeat(step, *inner.lost_at);
-      failed.is_hopeless = !size;
-      failed.retry_dt = size.value_or(0);
-      return failed;
-    }
-    of_newton = std::max(of_newton, inner.effort());
-    std::uint64_t state = 0;
-    for (const Part* part : parts_) state = state * 1000003 + part->discrete_state();
-
-    Assembly assembly(inside_->unknowns(), Assembly::Request::residual);
-    if (!options_.has_substeps) assemble_all(assembly, parts_, step);
-    if (options_.has_substeps && pass == 1) find_round_off(step);
-    change_before = check.largest;
-    check = options_.has_substeps ? check_changes(values_before)
-                                  : check_residual(assembly, system_, options_.until.tightest());
-    const Vector change = pass > 1 ? Vector(scaled_values() - before) : Vector();
-    if (log_) log_({step, "iterate", pass, check.largest, check.equation, change.norm(), 1, check.of_equations});
-    if (!check.finite)
-      return {false, (options_.has_substeps ? "" : "the residual of ") + check.equation + " is not finite", pass};
-    const auto residual_holds = [&](double bound) {
-      if (options_.has_substeps) return pass > 2 && is_error_below(bound, check.largest, change_before);
-      return bound == options_.until.tightest() ? check.converged : check_residual(assembly, system_, bound).converged;
-    };
-    if (criteria_.hold(pass, residual_holds, check.of_equations, values_before))
-      return converged(step, {true, "", pass, 0, of_newton});
-    if (pass == 1) {
-      choose_scales();
-      if (!accelerator_) continue;
-      begin_acceleration();
-      last_state = state;
-      accelerate(accelerated);
-      continue;
-    }
-    changes.add(change.norm(), relative_change(change, before));
-    last_change = change;
-    // If passes change no more than round-off, the imbalance that is left is round-off of the fields.
-    if (check.rows_hold && changes.are_round_off()) return converged(step, {true, "", pass, 0, of_newton});
-    if (!check.rows_hold || check.balances_hold) imbalances.clear();
-    if (check.rows_hold && !check.balances_hold) imbalances.push_back(check.imbalance);
-    if (are_round_off_of_balances(imbalances)) return converged(step, {true, "", pass, 0, of_newton});
-    residuals.push_back(check.largest);
-    if (changes.are_round_off() && !options_.has_substeps && hardly_fall(residuals, without_progress))
-      return {
-          false,
-          fmt::format("the iteration stagnates after {} passes: the residual of {} stays at {:.2g} of its terms, and "
-                      "passes change {} most, by round-off, {:.3g} times as much as the one before (the fields have "
-                      "no more digits in this split) solve '{}' with what it is coupled to in one 'solve'{}",
-                      pass, check.equation, check.largest, most_changed(change), changes.factor(),
-                      owner_of(check.equation), looser_tolerance(check.largest)),
-          pass};
-    if (const bool explode = !accelerator_ && changes.explode(); explode || changes.only_grow()) {
-      const double factor = explode ? changes.last_factor() : changes.factor();
-      return without_end(step,
-                         fmt::format("the iteration diverges: each pass changes {} {:.3g} times as much as the one "
-                                     "before",
-                                     most_changed(change), factor),
-                         factor, pass);
-    }
-    if (changes.stay_large(accelerator_ ? patience_accelerated : patience))
-      return without_end(step,
-                         fmt::format("the iteration does not converge: after {} passes each one still changes {} by "
-                                     "{:.2g} of its largest value, {:.3g} times as much as the one before",
-                                     pass, most_changed(change), changes.last_relative(), changes.factor()),
-                         changes.factor(), pass);
-    // Passes may cycle between discrete states, like Newton's method. Then a pass that changes the state is halved, and
-    // passes are not accelerated.
-    if (state != last_state) {
-      is_cycling = is_cycling || seen_states.count(state) > 1;
-      seen_states.insert(state);
-    }
-    if (is_cycling && state != last_state) {
-      constexpr double half = 0.5;
-      last_state = state;
-      set_scaled_values(before + half * change);
-      continue;
-    }
-    const bool is_other_state = state != last_state;
-    last_state = state;
-    if (!accelerator_ || is_cycling) continue;
-    // The accelerator may use earlier passes only as long as all of them belong to one smooth map.
-    if (is_other_state) {
-      accelerator_->forget();
-      stalled.forget();
-      is_plain = false;
-    }
-    const StalledAcceleration::Next next = stalled.after(change.norm());
-    const bool was_plain = std::exchange(is_plain, next == StalledAcceleration::Next::plain);
-    if (next == StalledAcceleration::Next::accelerated) {
-      accelerate(accelerated);
-      continue;
-    }
-    accelerator_->forget();
-    if (!was_plain || !is_plain) changes.begin_again();
-    if (next == StalledAcceleration::Next::back)
-      set_scaled_values(unaccelerated);
-    else if (!was_plain)
-      unaccelerated = scaled_values();
-  }
-  std::string reason = fmt::format("no convergence in {} passes: {} of {} is {:.2g} of its {}", options_.until.at_most,
-                                   options_.has_substeps ? "the last change" : "the residual", check.equation,
-                                   check.largest, options_.has_substeps ? "largest value" : "terms");
-  if (last_change.size() > 0 && changes.have_a_factor())
-    reason += fmt::format(", and a pass changes {} most, {:.3g} times as much as the one before",
-                          most_changed(last_change), changes.factor());
-  return {false, reason, options_.until.at_most};
 }
 
 }  // namespace sprekk

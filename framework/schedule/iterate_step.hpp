@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "framework/acceleration/registry.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/schedule/convergence_criteria.hpp"
 #include "framework/schedule/fallback_solve.hpp"
@@ -16,7 +17,6 @@
 #include "framework/schedule/passes/losses_in_passes.hpp"
 #include "framework/schedule/residual_check.hpp"
 #include "framework/schedule/schedule_context.hpp"
-#include "framework/schedule/step_history.hpp"
 
 namespace sprekk {
 
@@ -42,7 +42,7 @@ struct IterateOptions {
 /// Where passes do not converge, the step is solved for all of the unknowns at once, unless the scene says otherwise
 /// (FallbackSolve). Only where that does not converge either is it refused. An iteration over substeps has no such
 /// system.
-class IterateStep : public ScheduleStep, public StepHistory {
+class IterateStep : public ScheduleStep, public KeepsState {
  public:
   /// `pass`: receives the number of the pass, for those who log what happens in it. Throws InputError for a field to
   /// accelerate that is not solved inside.
@@ -62,6 +62,7 @@ class IterateStep : public ScheduleStep, public StepHistory {
   void restore(const std::map<std::string, Vector>& state) override;
 
  private:
+  class Passes;  // iterate_passes.cpp
   StepStatus make_passes(const StepTime& step);
   /// Counts what was exchanged with the fields of all solves together, whose equations hold: a solve has counted what
   /// it knew of the others when it was its turn. What passes have left of balances is counted later (CountsLater).

@@ -25,7 +25,7 @@ void append(CondensedUnknowns& all, const CondensedUnknowns& more) {
 
 int Newton::keep_states(const StepTime& step, const std::vector<Vector>& start) {
   int kept = 0, iterations = 0;
-  for (Part* part : parts_) kept += part->keep_states();
+  for (PiecewiseSmooth* part : pieces_) kept += part->keep_states();
   if (kept == 0) return 0;
   const std::vector<Vector> found = values();
   set(start);
@@ -34,7 +34,7 @@ int Newton::keep_states(const StepTime& step, const std::vector<Vector>& start) 
     iterations += tried.iterations;
     int released = 0;
     if (tried.converged)
-      for (Part* part : parts_) released += part->release_violated();
+      for (PiecewiseSmooth* part : pieces_) released += part->release_violated();
     if (tried.converged && released == 0) break;
     kept -= released;
     if (tried.converged && kept > 0) continue;
@@ -42,7 +42,7 @@ int Newton::keep_states(const StepTime& step, const std::vector<Vector>& start) 
     iterations = 0;
     break;
   }
-  for (Part* part : parts_) part->release_kept();
+  for (PiecewiseSmooth* part : pieces_) part->release_kept();
   return iterations;
 }
 
@@ -131,7 +131,7 @@ void Newton::follow_softening(const StepTime& step) {
   StepStatus path;
   const IterationLog log = std::exchange(log_, {});
   {
-    const SearchModeGuard guard(SearchMode::piecewise, SearchMode::with_shortcuts, parts_);
+    const SearchModeGuard guard(SearchMode::piecewise, SearchMode::with_shortcuts, pieces_);
     set(accepted);
     path = follow_path(step, SearchMode::piecewise);
   }

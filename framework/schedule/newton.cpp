@@ -8,8 +8,6 @@
 #include <map>
 #include <set>
 
-#include "framework/assembly/iterate_dependent.hpp"
-#include "framework/assembly/nonlinear_in_pieces.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -22,6 +20,7 @@ Newton::Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*
                const NewtonOptions& options, std::string name, IterationLog log)
     : unknowns_(std::move(unknowns)),
       parts_(std::move(parts)),
+      pieces_(parts_with<PiecewiseSmooth>(parts_)),
       options_(options),
       name_(std::move(name)),
       log_(std::move(log)),
@@ -40,8 +39,7 @@ void Newton::set_preconditioner_stabilization(const Stabilization& stabilization
 
 std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
   ++assemblies_;
-  for (Part* part : parts_)
-    if (auto* follower = dynamic_cast<IterateDependent*>(part)) follower->observe_iterate(unknowns_);
+  for (PiecewiseSmooth* part : pieces_) part->observe_iterate(unknowns_);
   auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()},
                                              Assembly::Request::residual_and_derivatives, &products_);
   for (const Part* part : parts_) part->assemble(*assembly, step);
@@ -67,7 +65,7 @@ LinearCounts Newton::counts() const {
 
 std::uint64_t Newton::discrete_state() const {
   std::uint64_t state = 0;
-  for (const Part* part : parts_) state = state * 1000003 + part->discrete_state();
+  for (const PiecewiseSmooth* part : pieces_) state = state * 1000003 + part->discrete_state();
   return state;
 }
 
@@ -223,14 +221,14 @@ void Newton::note_step(Notes& notes, const StepTime& step) const {
 StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start) {
   state_has_changed_ = false;
   // If the system is singular, because nothing holds some unknown in the present discrete state, a further attempt
-  // starts from fields whose conditions are inactive (Part::deactivate_conditions).
+  // starts from fields whose conditions are inactive (PiecewiseSmooth::deactivate_conditions).
   int iterations = 0;
   const auto attempt_also_without_conditions = [&](Until until) {
     StepStatus tried = attempt(step, options_.undamped, until);
     iterations += tried.iterations;
     if (!tried.converged && was_singular_) {
       set(start);
-      for (Part* part : parts_) part->deactivate_conditions();
+      for (PiecewiseSmooth* part : pieces_) part->deactivate_conditions();
       tried = attempt(step, options_.undamped, until);
       iterations += tried.iterations;
     }
@@ -239,15 +237,13 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
   };
   StepStatus status = attempt_also_without_conditions(Until::search);
   if (status.converged) return status;
-  const bool is_nonlinear = std::ranges::any_of(parts_, [](const Part* part) {
-    const auto* nonlinear = dynamic_cast<const NonlinearInPieces*>(part);
-    return nonlinear && nonlinear->is_nonlinear_in_pieces();
-  });
-  const SearchModeGuard guard(SearchMode::without_shortcuts, SearchMode::with_shortcuts, parts_);
+  const bool is_nonlinear =
+      std::ranges::any_of(pieces_, [](const PiecewiseSmooth* part) { return part->is_nonlinear_in_pieces(); });
+  const SearchModeGuard guard(SearchMode::without_shortcuts, SearchMode::with_shortcuts, pieces_);
   // Without shortcuts such parts come near the solution surely and slowly. From there their own derivatives are quick.
   const auto finish_with_own_derivatives = [&] {
     if (status.converged || !is_nonlinear || !is_used_up_) return;
-    const SearchModeGuard own(SearchMode::piecewise, SearchMode::without_shortcuts, parts_);
+    const SearchModeGuard own(SearchMode::piecewise, SearchMode::without_shortcuts, pieces_);
     StepStatus finished = attempt(step, options_.undamped);
     finished.iterations += status.iterations;
     status = finished;

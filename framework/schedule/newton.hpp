@@ -8,7 +8,9 @@
 
 #include "framework/assembly/block_system.hpp"
 #include "framework/assembly/part.hpp"
+#include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/softening.hpp"
+#include "framework/assembly/stabilizes.hpp"
 #include "framework/linear/condensed_eigenpair.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/schedule/residual_check.hpp"
@@ -34,7 +36,7 @@ struct NewtonOptions {
 /// relative residuals. If the first attempt fails, a second one from the same start asks for descent from its first
 /// iteration: full steps may have led to a place from which no descent leads back.
 ///
-/// If the second attempt fails, and the discrete state has changed or a part is NonlinearInPieces, a third attempt
+/// If the second attempt fails, and the discrete state has changed or a part is nonlinear in pieces, a third attempt
 /// follows a path. Contact is piecewise linear, so residual(x) = s residual(x0) is a polygonal line that bends where
 /// the discrete state changes. The path is followed from s = 1 down to 0, each piece with its own derivatives up to the
 /// end of that piece. Where the determinant changes its sign from one piece to the next, s grows until the path turns
@@ -46,9 +48,9 @@ struct NewtonOptions {
 /// goes.
 ///
 /// A step may have several solutions, and Newton's method may jump over the one to which the step's start leads
-/// continuously. So where parts say that cells have left their states by a jump (Part::keep_states), the step is solved
-/// once more with these states kept; those that do not fulfil their conditions are released, until all do. The result
-/// is taken as the solution.
+/// continuously. So where parts say that cells have left their states by a jump (PiecewiseSmooth::keep_states), the
+/// step is solved once more with these states kept; those that do not fulfil their conditions are released, until all
+/// do. The result is taken as the solution.
 ///
 /// Where places lose strength as they move (Softening), the path also tells whether equilibria lead from the accepted
 /// state to the solution. Small parts of the load move it from s = 1 to 0, so where it turns for the first time the
@@ -112,7 +114,7 @@ class Newton {
   StepStatus follow_path(const StepTime& step, SearchMode mode);
   /// Releases held coefficients in small shares from the end of a path, with an attempt at each share.
   StepStatus release_coefficients(const StepTime& step, const std::vector<Vector>& start);
-  /// Releases the coefficients that Part::hold_coefficients holds up to `share`, and attempts to solve.
+  /// Releases the coefficients that PiecewiseSmooth::hold_coefficients holds up to `share`, and attempts to solve.
   StepStatus attempt_with_share(const StepTime& step, double share);
   /// Motion that runs away.
   struct Loss {
@@ -141,6 +143,7 @@ class Newton {
 
   std::vector<Field*> unknowns_;
   std::vector<Part*> parts_;
+  std::vector<PiecewiseSmooth*> pieces_;  ///< those of the parts that are so
   NewtonOptions options_;
   std::string name_;
   IterationLog log_;

@@ -77,7 +77,7 @@ bool Newton::is_solution(const ResidualCheck& check) {
 
 StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
   constexpr double far = 1e9;  // in lengths of the update: a ray without a crossing up to here has none
-  const SearchModeGuard guard(mode, SearchMode::without_shortcuts, parts_);
+  const SearchModeGuard guard(mode, SearchMode::without_shortcuts, pieces_);
   std::set<std::uint64_t> entered;
   std::uint64_t left = 0;    // the last piece before the present one
   bool has_crossed = false;  // since the last whole step

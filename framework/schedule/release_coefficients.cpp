@@ -10,7 +10,7 @@ namespace sprekk {
 
 StepStatus Newton::attempt_with_share(const StepTime& step, double share) {
   SPREKK_EXPECT(share > 0 && share <= 1, share);
-  for (Part* part : parts_) part->release_coefficients(share);
+  for (PiecewiseSmooth* part : pieces_) part->release_coefficients(share);
   return attempt(step, options_.undamped);
 }
 
@@ -20,7 +20,7 @@ StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<
   constexpr double first = 0.25, smallest = 1.0 / 64;
   std::vector<Vector> reached = values();
   set(start);
-  for (Part* part : parts_) part->hold_coefficients();
+  for (PiecewiseSmooth* part : pieces_) part->hold_coefficients();
   set(reached);
   int iterations = 0;
   double share = 0, increment = first;
@@ -39,7 +39,7 @@ StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<
       set(reached);
     }
   }
-  for (Part* part : parts_) part->release_coefficients(1);
+  for (PiecewiseSmooth* part : pieces_) part->release_coefficients(1);
   if (share == 1) return {true, "", iterations};
   return {
       false,

@@ -20,12 +20,12 @@ struct ScheduleContext {
   FieldStore& fields;
   std::vector<Part*> parts;  ///< all components and couplers
   IterationLog log;
-  std::map<std::string, Part*> named = {};               ///< the components by their names in the scene
-  double start_time = 0;                                 ///< s, of the run
-  double standard_step = 0;                              ///< s
-  std::vector<class GrowStep*>* growing = nullptr;       ///< collects the steps that change the mesh
-  std::vector<class StepHistory*>* histories = nullptr;  ///< collects the steps that learn from time steps
-  std::shared_ptr<const int> pass = nullptr;             ///< of the innermost iteration around a step, if there is one
+  std::map<std::string, Part*> named = {};           ///< the components by their names in the scene
+  double start_time = 0;                             ///< s, of the run
+  double standard_step = 0;                          ///< s
+  std::vector<class GrowStep*>* growing = nullptr;   ///< collects the steps that change the mesh
+  std::vector<class KeepsState*>* states = nullptr;  ///< collects the steps that learn from time steps
+  std::shared_ptr<const int> pass = nullptr;         ///< of the innermost iteration around a step, if there is one
 
   /// The solved fields of the named components: their unknowns, and their inputs that a coupler determines.
   std::vector<Field*> solved_fields(const std::vector<std::string>& components) const;

@@ -6,7 +6,7 @@
 #include "framework/assembly/block_system.hpp"
 #include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/needs_direct_solver.hpp"
-#include "framework/assembly/stabilizes_preconditioner.hpp"
+#include "framework/assembly/stabilizes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/residual_check.hpp"
@@ -19,7 +19,7 @@ const char* const response = "response";  ///< the stabilization that needs no c
 
 void require_offered(const SolveOptions& options, const std::vector<Part*>& parts) {
   std::vector<std::string> offered = {"none", response};
-  for (const Part* part : parts) {
+  for (const auto* part : parts_with<Stabilizes>(parts)) {
     const std::vector<std::string> more = part->stabilizations();
     for (const std::string& name : more)
       if (std::ranges::count(offered, name) == 0) offered.push_back(name);
@@ -254,7 +254,7 @@ void SolveStep::check() const {
   if (options_.stabilization == "none") return;
   if (options_.stabilization == response) return check_response();
   Stabilization stabilization;
-  for (const Part* part : parts_) part->stabilize(options_.stabilization, stabilization);
+  for (const auto* part : parts_with<Stabilizes>(parts_)) part->stabilize(options_.stabilization, stabilization);
   const auto is_solved = [&](const auto& entry) { return std::ranges::count(fields_, entry.first) > 0; };
   for (const Part* part : parts_)
     if (const auto* holds = dynamic_cast<const HoldsAmounts*>(part))
@@ -312,9 +312,8 @@ StepStatus SolveStep::run(const StepTime& step) {
   // A state that is settled before the first step has the length of that step, and ends at the start.
   SPREKK_EXPECT(step.dt > 0 && step.end >= step.start, step.start, step.dt, step.end);
   Stabilization stabilization, preconditioning;
-  for (const Part* part : parts_) {
-    if (const auto* offer = dynamic_cast<const StabilizesPreconditioner*>(part))
-      offer->stabilize_preconditioner(preconditioning);
+  for (const auto* part : parts_with<Stabilizes>(parts_)) {
+    part->stabilize_preconditioner(preconditioning);
     if (options_.stabilization != "none") part->stabilize(options_.stabilization, stabilization);
   }
   const Responses& of_waiting = responses(step);

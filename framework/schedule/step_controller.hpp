@@ -93,8 +93,8 @@ class StepController {
   const FailedStep& failed() const { return failed_; }
 
   /// For checkpoints: `save` adds all values that the controller keeps, by name, and `restore` takes them back (as
-  /// Part::save and Part::restore do). `restore` throws InputError when a value is missing or is not one number; the
-  /// controller must not be used after that.
+  /// KeepsState does). `restore` throws InputError when a value is missing or is not one number; the controller must
+  /// not be used after that.
   void save(std::map<std::string, Vector>& state) const;
   void restore(const std::map<std::string, Vector>& state);
 

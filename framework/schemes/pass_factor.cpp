@@ -7,6 +7,7 @@
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/block_system.hpp"
 #include "framework/assembly/holds_amounts.hpp"
+#include "framework/assembly/stabilizes.hpp"
 #include "framework/linear/direct/sparse_lu.hpp"
 #include "framework/schedule/held_amounts.hpp"
 
@@ -59,7 +60,7 @@ const PassFactor::Group* PassFactor::group(const std::vector<std::string>& compo
   if (group) return group.get();
   group = std::make_unique<Group>();
   Stabilization diagonals;
-  for (const Part* part : model_.parts())
+  for (const auto* part : parts_with<Stabilizes>(model_.parts()))
     if (!stabilization.empty()) part->stabilize(stabilization, diagonals);
   std::vector<int> place(static_cast<std::size_t>(matrix_.cols()), -1);
   Vector more = Vector::Zero(matrix_.cols());

@@ -1,4 +1,5 @@
 // The whole Jacobian of flow in rock and fractures, of the exchange between them and of their aperture.
+#include "framework/assembly/piecewise_smooth.hpp"
 #include "tests/verification/derivatives.hpp"
 
 namespace sprekk::testing {
@@ -89,7 +90,7 @@ TEST(FlowDerivatives, OfTheCubicLawThatIsReleasedInPart) {
     SceneRun run = SceneRun::from_text(scene(std::string("    aperture_floor: ") + floor));
     Field& aperture = run.model().fields().at("conduit.aperture");
     aperture.set(Vector::LinSpaced(aperture.size(), 0.6, 1.3));
-    for (Part* part : run.model().parts()) {
+    for (auto* part : parts_with<PiecewiseSmooth>(run.model().parts())) {
       part->hold_coefficients();
       part->release_coefficients(0.3);
     }
@@ -143,7 +144,7 @@ TEST(FlowDerivatives, OfInertiaThatIsReleasedInPart) {
   SceneRun run = SceneRun::from_text(scene("    law: {type: cubic, inertia: 30 1/m}"));
   Field& flux = run.model().fields().at("conduit.flux");
   flux.set(Vector::LinSpaced(flux.size(), -0.7, 1.1));
-  for (Part* part : run.model().parts()) {
+  for (auto* part : parts_with<PiecewiseSmooth>(run.model().parts())) {
     part->hold_coefficients();
     part->release_coefficients(0.3);
   }

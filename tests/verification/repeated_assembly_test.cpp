@@ -7,7 +7,7 @@
 #include <set>
 
 #include "framework/assembly/assemble_all.hpp"
-#include "framework/assembly/iterate_dependent.hpp"
+#include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/config/yaml/load_scene.hpp"
 #include "framework/scene/registry.hpp"
 #include "tests/verification/scene_run.hpp"
@@ -85,7 +85,7 @@ TEST_P(RepeatedAssembly, GivesTheSameBits) {
     const std::vector<Vector> here = random_values(unknowns, random);
     set(here);
     for (Part* part : model.parts())
-      if (auto* follower = dynamic_cast<IterateDependent*>(part)) follower->observe_iterate(solved);
+      if (auto* follower = dynamic_cast<PiecewiseSmooth*>(part)) follower->observe_iterate(solved);
     const Terms first = terms_at(model.parts(), unknowns, step);
     for (int other = 0; other < 4; ++other) {
       set(random_values(unknowns, random));

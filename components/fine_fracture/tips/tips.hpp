@@ -11,6 +11,9 @@
 #include "components/fine_fracture/growth/arc.hpp"
 #include "components/fine_fracture/growth/grow_tips.hpp"
 #include "components/fine_fracture/tips/beside_arcs.hpp"
+#include "framework/assembly/counts_work.hpp"
+#include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/growing.hpp"
@@ -33,7 +36,13 @@ struct TipsOptions {
 /// The component of tips. It has no unknowns in the coarse level: it reads the state of the coarse level around each
 /// tip (TipSurroundings), computes the stress-intensity factors on the fine level, and lets tips grow. A path that is
 /// too short for the coarse level stays in the fine level, until it is long enough to be passed on.
-class Tips : public Component, public FractureTips, public MovingTips, public Growing {
+class Tips : public Component,
+             public KeepsState,
+             public FollowsMesh,
+             public CountsWork,
+             public FractureTips,
+             public MovingTips,
+             public Growing {
  public:
   Tips(const ComponentContext& context, const TipsOptions& options, std::unique_ptr<const FineLevelMaker> maker);
 

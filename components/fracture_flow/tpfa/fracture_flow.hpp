@@ -16,10 +16,13 @@
 #include "components/fracture_flow/tpfa/mean_along.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
 #include "components/fracture_flow/tpfa/stored_fluid.hpp"
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/follows_stages.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/may_store_nothing.hpp"
+#include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
 
@@ -38,6 +41,9 @@ namespace sprekk::fracture_flow {
 /// With Options::fractures there is a flow in these fractures only. In all others the row of p is p = 0, no flux has a
 /// conductance, and walls are sealed.
 class FractureFlow : public Component,
+                     public PiecewiseSmooth,
+                     public KeepsState,
+                     public FollowsMesh,
                      public FractureFluid,
                      public FractureFluxes,
                      public BuoyantFractures,

@@ -14,6 +14,8 @@
 #include "components/poromechanics/rock_stiffness.hpp"
 #include "components/poromechanics/settled_rock.hpp"
 #include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/counts_work.hpp"
+#include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/needs_direct_solver.hpp"
 #include "framework/assembly/notes_start.hpp"
 #include "framework/scene/component.hpp"
@@ -33,6 +35,8 @@ struct FemOptions : Options {
 /// displacement of one function with that of the loads (N/m), or holds a prescribed displacement. At first order, where
 /// rock is nearly incompressible, part of the stress against a change of volume is an unknown of every cell.
 class FemRock : public Component,
+                public KeepsState,
+                public CountsWork,
                 public PoroelasticRock,
                 public RockWalls,
                 public RockState,

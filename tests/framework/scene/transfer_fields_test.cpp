@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
 #include "framework/scene/change_mesh.hpp"
@@ -156,7 +157,7 @@ TEST(TransferFields, WhatIsSmoothIsTransferredToSecondOrder) {
 }
 
 /// A part that knows what a field is within the cells of a mesh: linear on the n^2 triangles of each.
-class Knowing : public Part {
+class Knowing : public Part, public FollowsMesh {
  public:
   Knowing(const Mesh& mesh, int n, double weight, const std::function<double(const Point&)>& value) {
     for (int cell = 0; cell < mesh.cell_count(); ++cell) {

@@ -1,6 +1,7 @@
 // Newton's method where full steps lead nowhere.
 #include "framework/schedule/newton.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/piecewise_smooth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -256,7 +257,7 @@ TEST(Newton, WithoutThroughputBalancesAreEquationsAsOthers) {
 
 /// A continuous, piecewise linear function of the first value, given by its corners, and of slope `slope` behind the
 /// last one.
-class Polyline : public Part {
+class Polyline : public Part, public PiecewiseSmooth {
  public:
   Polyline(const Field& x, std::vector<Point> corners, double slope)
       : x_(x), corners_(std::move(corners)), slope_(slope) {}
