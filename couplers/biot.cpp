@@ -21,6 +21,7 @@
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/mesh/plane/planar.hpp"
@@ -275,7 +276,7 @@ class Biot : public Coupler,
             .name = name,
             .location = Location::cell,
             .role = Role::derived(),
-            .unit = "m^2",
+            .unit = volume_unit,
             .doc = doc,
             .accepted_with = fluid_.pressure().name(),
             .is_amount = true};

@@ -10,6 +10,7 @@
 #include "framework/assembly/property.hpp"
 #include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
@@ -125,7 +126,7 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
     double rate = 0;
     for (const int face : faces_)
       if (is_owned(mesh_, Location::face, face)) rate += mesh_.face_measure[face] * flux_->now()[face];
-    quantities.push_back({name() + ".rate", "m^2/s", parallel::sum(rate)});
+    quantities.push_back({name() + ".rate", volume_rate_unit, parallel::sum(rate)});
   }
 
   /// Two flows that touch, and between which nothing passes.
@@ -218,7 +219,7 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
             .name = name,
             .location = Location::cell,
             .role = Role::derived(),
-            .unit = "m^2",
+            .unit = volume_unit,
             .doc = doc,
             .accepted_with = with.name(),
             .is_amount = true};

@@ -13,6 +13,7 @@
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
@@ -217,7 +218,7 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
             .name = name,
             .location = Location::wall,
             .role = Role::derived(),
-            .unit = "m^2",
+            .unit = volume_unit,
             .doc = doc,
             .accepted_with = with.name(),
             .is_amount = true};

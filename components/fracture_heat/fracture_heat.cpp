@@ -6,6 +6,7 @@
 #include "components/capabilities/usual_ranges.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/ridge_distance.hpp"
 
@@ -80,7 +81,7 @@ FractureHeat::FractureHeat(const ComponentContext& context, const Options& optio
                                              .location = Location::fracture_cell,
                                              .components = 2,
                                              .role = Role::derived(),
-                                             .unit = "J/m",
+                                             .unit = energy_unit,
                                              .doc = "Heat stored, and conducted out through ends on sides",
                                              .accepted_with = temperature_.name(),
                                              .is_amount = true})) {
@@ -236,7 +237,7 @@ void FractureHeat::after_solve(const std::vector<Field*>& solved, const StepTime
 
 void FractureHeat::balance(std::map<std::string, Balance>& balances) const {
   Balance& heat = balances["heat"];
-  heat.unit = "J/m";
+  heat.unit = energy_unit;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     heat.stored += cumulative_.now()[2 * i];
     heat.outflow += cumulative_.now()[2 * i + 1];

@@ -3,6 +3,7 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/products.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -108,7 +109,7 @@ void MatrixFlow::report(std::vector<Quantity>& quantities) const {
     for (const FluidSource& source : sources_)
       if (source.name == well)
         for (const auto& [cell, part] : source.rates) rate += part;
-    quantities.push_back({name() + "." + well + ".rate", "m^2/s", rate});
+    quantities.push_back({name() + "." + well + ".rate", volume_rate_unit, rate});
   }
   if (options_.boundary.empty()) return;
   Vector outflow = Vector::Zero(static_cast<Eigen::Index>(mesh_.side_names.size()));
@@ -120,8 +121,8 @@ void MatrixFlow::report(std::vector<Quantity>& quantities) const {
   }
   for (std::size_t side = 0; side < mesh_.side_names.size(); ++side)
     if (options_.boundary.count(mesh_.side_names[side]) > 0)
-      quantities.push_back(
-          {name() + "." + mesh_.side_names[side] + ".outflow", "m^2/s", outflow[static_cast<Eigen::Index>(side)]});
+      quantities.push_back({name() + "." + mesh_.side_names[side] + ".outflow", volume_rate_unit,
+                            outflow[static_cast<Eigen::Index>(side)]});
 }
 
 void MatrixFlow::output(std::vector<OutputField>& fields) const {

@@ -6,6 +6,7 @@
 #include "components/matrix_flow/buoyancy.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
@@ -28,7 +29,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                              .location = Location::cell,
                                              .components = 3,
                                              .role = Role::derived(),
-                                             .unit = "m^2",
+                                             .unit = volume_unit,
                                              .doc = "Fluid stored, injected, and flowed out through the outer boundary",
                                              .accepted_with = pressure_.name(),
                                              .is_amount = true})),
@@ -131,7 +132,7 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
 
 void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
   Balance& fluid = balances["fluid"];
-  fluid.unit = "m^2";
+  fluid.unit = volume_unit;
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     fluid.stored += cumulative_.now()[3 * c];
     fluid.injected += cumulative_.now()[3 * c + 1];

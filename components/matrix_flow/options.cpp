@@ -1,6 +1,7 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 
 #include "components/capabilities/usual_ranges.hpp"
+#include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -22,9 +23,11 @@ Spec side_spec(SideCondition& side) {
 Spec well_spec(Well& well) {
   Spec inner("well", "A point that injects (or with a negative rate extracts) fluid.");
   inner.point("at", well.at, {.unit = "m", .doc = "Position.", .required = true});
-  inner.data(
-      "rate", well.rate,
-      {.unit = "m^2/s", .doc = "Volume of fluid per time and metre of depth.", .required = true, .in_time = true});
+  inner.data("rate", well.rate,
+             {.unit = volume_rate_unit,
+              .doc = "Volume of fluid per time and metre of depth.",
+              .required = true,
+              .in_time = true});
   return inner;
 }
 

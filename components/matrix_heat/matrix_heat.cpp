@@ -9,6 +9,7 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/mesh/plane/cell_mean.hpp"
@@ -34,7 +35,7 @@ MatrixHeat::MatrixHeat(const ComponentContext& context, const Options& options, 
                                              .location = Location::cell,
                                              .components = 3,
                                              .role = Role::derived(),
-                                             .unit = "J/m",
+                                             .unit = energy_unit,
                                              .doc = "Heat stored, generated, and conducted out through the boundary",
                                              .accepted_with = temperature_.name(),
                                              .is_amount = true})) {
@@ -208,7 +209,7 @@ void MatrixHeat::after_solve(const std::vector<Field*>& solved, const StepTime& 
 
 void MatrixHeat::balance(std::map<std::string, Balance>& balances) const {
   Balance& heat = balances["heat"];
-  heat.unit = "J/m";
+  heat.unit = energy_unit;
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     heat.stored += cumulative_.now()[3 * c];
     heat.injected += cumulative_.now()[3 * c + 1];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -47,14 +48,15 @@ FieldSpec listed(const ComponentContext& context, const char* name, std::size_t 
 }
 
 FieldSpec rate_spec(const ComponentContext& context, std::size_t count) {
-  FieldSpec spec = listed(context, "rate", count, Role::input(BlockKind::interface), "m^2/s",
+  FieldSpec spec = listed(context, "rate", count, Role::input(BlockKind::interface), volume_rate_unit,
                           "Rate out of the wells at each of their places");
   spec.needs_coupler = "well_exchange";
   return spec;
 }
 
 FieldSpec injected_spec(const ComponentContext& context, std::size_t count) {
-  FieldSpec spec = listed(context, "injected", count, Role::derived(), "m^2", "Fluid that the wells have injected");
+  FieldSpec spec =
+      listed(context, "injected", count, Role::derived(), volume_unit, "Fluid that the wells have injected");
   spec.accepted_with = context.name + ".rate";
   return spec;
 }
@@ -189,7 +191,7 @@ void LimitedWells::after_solve(const std::vector<Field*>& solved, const StepTime
 
 void LimitedWells::balance(std::map<std::string, Balance>& balances) const {
   Balance& fluid = balances["fluid"];
-  fluid.unit = "m^2";
+  fluid.unit = volume_unit;
   fluid.injected += injected_.now().sum();
   fluid.throughput += injected_.now().lpNorm<1>();
 }
@@ -213,14 +215,15 @@ void LimitedWells::report(std::vector<Quantity>& quantities) const {
   const Vector rates = this->rates();
   for (int w = 0; w < count(); ++w) {
     const std::string column = name() + "." + names_[w];
-    quantities.push_back({column + ".rate", "m^2/s", rates[w]});
+    quantities.push_back({column + ".rate", volume_rate_unit, rates[w]});
     quantities.push_back({column + ".pressure", "Pa", pressure_.now()[w]});
     quantities.push_back(
         {column + ".binds_0_rate_1_pressure_2_shut", "1", static_cast<double>(binding_now(w, rates[w]))});
   }
   for (std::size_t k = 0; k < places_.size(); ++k)
     if (places_[k].name != names_[places_[k].well])
-      quantities.push_back({name() + "." + places_[k].name + ".rate", "m^2/s", rate_.now()[static_cast<int>(k)]});
+      quantities.push_back(
+          {name() + "." + places_[k].name + ".rate", volume_rate_unit, rate_.now()[static_cast<int>(k)]});
 }
 
 void LimitedWells::note_step(Notes& notes, const StepTime&) const {

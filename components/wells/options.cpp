@@ -1,4 +1,5 @@
 #include "components/wells/options.hpp"
+#include "framework/field/units_of_amounts.hpp"
 
 #include <utility>
 
@@ -10,7 +11,7 @@ void add_place(Spec& spec, Perforation& place) {
   spec.text("fracture", place.fracture, {.doc = "It is open to this fracture at `at`; without it, to the rock."});
   spec.quantity(
       "index", place.index,
-      {.unit = "m^2/(Pa*s)",
+      {.unit = volume_rate_by_pressure_unit,
        .range = positive(),
        .doc = "Rate over difference of pressure to the cells around it. Without it, in rock it follows from the "
               "mesh, the radius and the skin; in a fracture the well has the pressure at its point."});
@@ -65,7 +66,7 @@ Spec well_spec(WellOptions& well) {
       "A well with a rate and limits of its pressure, of which what binds first holds, or with a given pressure.");
   spec.data(
       "rate", well.rate,
-      {.unit = "m^2/s",
+      {.unit = volume_rate_unit,
        .doc = "Volume of fluid per time and metre of depth that it is to inject, or with a negative rate extract.",
        .in_time = true});
   spec.data("pressure", well.pressure,

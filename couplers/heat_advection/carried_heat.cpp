@@ -7,6 +7,7 @@
 
 #include "framework/config/data.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::couplers {
 namespace {
@@ -24,7 +25,7 @@ CarriedHeat::CarriedHeat(const CouplerContext& context, Field& field, Location p
                                           .name = "received_in_" + where,
                                           .location = location,
                                           .role = Role::derived(),
-                                          .unit = "m^2",
+                                          .unit = volume_unit,
                                           .doc = "Fluid that has entered each cell, as its heat is counted",
                                           .accepted_with = temperature->name(),
                                           .is_amount = true});
@@ -33,7 +34,7 @@ CarriedHeat::CarriedHeat(const CouplerContext& context, Field& field, Location p
                                             .location = location,
                                             .components = 3,
                                             .role = Role::derived(),
-                                            .unit = "J/m",
+                                            .unit = energy_unit,
                                             .doc = "Heat of received fluid, and what fluid carried in from outside and "
                                                    "out",
                                             .accepted_with = temperature->name(),

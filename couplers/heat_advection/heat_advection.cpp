@@ -16,6 +16,7 @@
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -135,7 +136,7 @@ class HeatAdvection : public Coupler, public KeepsState, public FollowsMesh, pub
 
   void balance(std::map<std::string, Balance>& balances) const override {
     Balance& heat = balances["heat"];
-    heat.unit = "J/m";
+    heat.unit = energy_unit;
     for (const CarriedHeat* place : {&rock_, &fractures_})
       if (place->temperature) place->add_to(heat);
   }

@@ -1,6 +1,7 @@
 #include "couplers/heat_advection/held_flow.hpp"
 
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::couplers {
 
@@ -11,7 +12,7 @@ HeldFlow::HeldFlow(const CouplerContext& context, const CarryingFlow& flow)
                                              .name = "flux_in_rock",
                                              .location = Location::face,
                                              .role = Role::derived(),
-                                             .unit = "m^2/s",
+                                             .unit = volume_rate_unit,
                                              .doc = "Flux of fluid through each face as the flow was last solved",
                                              .accepted_with = flow_.pressure_in_rock->name()});
 }

@@ -112,7 +112,9 @@ class PressureNearTips::Region::EdgeNodes {
   /// An edge becomes finer towards a tip at one of its ends. A triangle with two tips has no first corner at which it
   /// could; then neither of them is one.
   EdgeNodes(Region& region, const std::set<int>& tips) : region_(region), fine_(tips) {
-    const auto tip_count = [&](int cell) { return std::ranges::count_if(corners(cell), [&](int node) { return is_fine(node); }); };
+    const auto tip_count = [&](int cell) {
+      return std::ranges::count_if(corners(cell), [&](int node) { return is_fine(node); });
+    };
     for (const int cell : region.cells)
       if (tip_count(cell) > 1)
         for (const int node : corners(cell)) fine_.erase(node);

@@ -18,6 +18,7 @@
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/point_source.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/plane/planar.hpp"
@@ -294,7 +295,7 @@ class WellExchange : public Coupler, public FollowsMesh {
             .components = early_terms,
             .listed = count,
             .role = Role::derived(),
-            .unit = "m^2/s",
+            .unit = volume_rate_unit,
             .doc = "Rates that have changed a while ago and still change the resistance of the rock around wells",
             .accepted_with = rate.name()};
   }

@@ -217,8 +217,7 @@ class Commands {
   CompareCommand compare_{app_};
   ConvergeCommand converge_{app_};
   SchemesCommand schemes_{app_};
-  CLI::App* show_ =
-      app_.add_subcommand("show", "Prints the scene with every default, and where each value came from");
+  CLI::App* show_ = app_.add_subcommand("show", "Prints the scene with every default, and where each value came from");
   CLI::App* fractures_ =
       app_.add_subcommand("fractures", "Prints the fractures as a table, also those that are drawn at random");
   CLI::App* graph_ = app_.add_subcommand("graph", "Draws components, couplers and schedule");

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/fracture_set.hpp"
@@ -25,7 +26,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                      .name = "flux",
                                      .location = Location::ridge,
                                      .role = Role::unknown(BlockKind::interface),
-                                     .unit = "m^2/s",
+                                     .unit = volume_rate_unit,
                                      .doc = "Flux along the fractures, from the first to the second cell of a point"})),
       aperture_(context.fields.add(mesh_, {.owner = context.name,
                                            .name = "aperture",
@@ -38,7 +39,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                              .location = Location::fracture_cell,
                                              .components = 3,
                                              .role = Role::derived(),
-                                             .unit = "m^2",
+                                             .unit = volume_unit,
                                              .doc = "Fluid stored, injected, and flowed out through the outer boundary",
                                              .accepted_with = pressure_.name(),
                                              .is_amount = true})),
@@ -64,7 +65,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                                     .location = Location::listed,
                                                     .listed = static_cast<int>(points),
                                                     .role = Role::unknown(BlockKind::interface),
-                                                    .unit = "m^2/s",
+                                                    .unit = volume_rate_unit,
                                                     .doc = "What enters at points with a prescribed pressure"});
   const std::vector<Place> places = fracture_cell_places(mesh_);
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
@@ -333,7 +334,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
 
 void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
   Balance& fluid = balances["fluid"];
-  fluid.unit = "m^2";
+  fluid.unit = volume_unit;
   fluid.is_closed = fluid.is_closed && prescribed_.empty();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     fluid.stored += cumulative_.now()[3 * i];
@@ -372,7 +373,7 @@ void FractureFlow::report(std::vector<Quantity>& quantities) const {
   if (!empty_) return;
   double volume = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) volume += mesh_.fracture_cells[i].measure * empty_->now()[i];
-  quantities.push_back({name() + ".empty_volume", "m^2", volume});
+  quantities.push_back({name() + ".empty_volume", volume_unit, volume});
 }
 
 }  // namespace sprekk::fracture_flow

@@ -1,6 +1,7 @@
 #include "components/fracture_flow/tpfa/options.hpp"
 
 #include "components/capabilities/usual_ranges.hpp"
+#include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -15,7 +16,7 @@ Spec injection_spec(Injection& injection) {
   Spec spec("injection", "Fluid injected into a fracture; extracted with a negative rate.");
   add_where(spec, injection.where, "A point of a fracture; the cells whose centres are around it share the rate");
   spec.data("rate", injection.rate,
-            {.unit = "m^2/s",
+            {.unit = volume_rate_unit,
              .doc = "Volume of fluid per time and metre of depth, in all.",
              .source = "q_i of the paper's Eq. 8",
              .required = true,

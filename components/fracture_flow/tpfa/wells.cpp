@@ -7,6 +7,7 @@
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/plane/point_location.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -235,7 +236,7 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
   for (const FluidSource& source : sources_) {
     double rate = 0;
     for (const auto& [cell, part] : source.rates) rate += part;
-    quantities.push_back({name() + "." + source.name + ".rate", "m^2/s", rate});
+    quantities.push_back({name() + "." + source.name + ".rate", volume_rate_unit, rate});
     const auto point = std::ranges::find(injected_points_, source.name, &OpenPoint::name);
     if (point != injected_points_.end())
       quantities.push_back({name() + "." + source.name + ".pressure", "Pa", pressure_at(*point, rate)});
@@ -255,7 +256,7 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
   Eigen::Index point = 0;
   for (const auto& [place_name, given] : options_.prescribed) {
     const double rate = given.where.at ? let_in_at_points_->now()[point++] : rates[place];
-    quantities.push_back({name() + "." + place_name + ".rate", "m^2/s", rate});
+    quantities.push_back({name() + "." + place_name + ".rate", volume_rate_unit, rate});
     ++place;
   }
   for (const auto& [side, pressure] : options_.boundary) {
@@ -265,7 +266,7 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
       if (link.second == none && of_link != none && mesh_.side_names[of_link] == side)
         outflow += flux_.now()[link.ridge];
     }
-    quantities.push_back({name() + "." + side + ".outflow", "m^2/s", outflow});
+    quantities.push_back({name() + "." + side + ".outflow", volume_rate_unit, outflow});
   }
 }
 
