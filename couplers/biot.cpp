@@ -135,7 +135,7 @@ class Biot : public Coupler,
     Vector stored = stored_.accepted() + grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted());
     if (!decoupled_ && !options_.one_way) {
       Vector volume = rock_.volume_change().now();
-      replicate(mesh_, Location::cell, 1, volume);
+      exchange(mesh_, Location::cell, 1, volume);
       stored += alpha_in_fluid_.cwiseProduct(volume - counted_volume_.accepted());
       counted_volume_.set(std::move(volume));
     }
@@ -147,7 +147,7 @@ class Biot : public Coupler,
     const auto row = std::ranges::find(unknowns, &fluid_.pressure());
     if (row == unknowns.end() || decoupled_ || options_.one_way) return;
     Vector rest = rest_of_balances(assembly, static_cast<int>(row - unknowns.begin()));
-    replicate(mesh_, Location::cell, 1, rest);
+    exchange(mesh_, Location::cell, 1, rest);
     Vector volume = counted_volume_.now();
     for (int c = 0; c < mesh_.cell_count(); ++c)
       if (alpha_in_fluid_[c] > 0) volume[c] -= rest[c] / alpha_in_fluid_[c];
@@ -161,7 +161,7 @@ class Biot : public Coupler,
   void settled(const MeshChange& change) override {
     if (decoupled_ || options_.one_way || change.is_at_start) return;
     Vector volume = rock_.volume_change().now();
-    replicate(mesh_, Location::cell, 1, volume);
+    exchange(mesh_, Location::cell, 1, volume);
     double difference = 0, area = 0;
     for (int c = 0; c < mesh_.cell_count(); ++c) {
       difference += alpha_in_fluid_[c] * (volume[c] - counted_volume_.accepted()[c]);
@@ -176,7 +176,7 @@ class Biot : public Coupler,
   void count_amounts_from_here(const SettledFields& settled) override {
     if (decoupled_ || options_.one_way || settled.fields.empty()) return;
     Vector volume = rock_.volume_change().now();
-    replicate(mesh_, Location::cell, 1, volume);
+    exchange(mesh_, Location::cell, 1, volume);
     counted_volume_.set_both(std::move(volume));
   }
 
@@ -192,7 +192,7 @@ class Biot : public Coupler,
   }
 
   void balance(std::map<std::string, Balance>& balances) const override {
-    balances["fluid"].stored += stored_.now().sum();
+    balances["fluid"].stored += sum_owned(mesh_, Location::cell, stored_.now());
   }
 
   /// The constant mode of the pressure loads the rock, and the grains store fluid.
@@ -330,7 +330,7 @@ class Biot : public Coupler,
         }))
       return;
     Vector stored = volume.now();
-    replicate(mesh_, Location::cell, 1, stored);
+    exchange(mesh_, Location::cell, 1, stored);
     Vector least(mesh_.cell_count()), most(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c) {
       const double alpha = alpha_in_fluid_[c], square = alpha * alpha * mesh_.cell_measure[c];

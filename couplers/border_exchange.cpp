@@ -117,7 +117,7 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
 
   /// What the first flow has let out and the second has not counted yet is stored in neither.
   void balance(std::map<std::string, Balance>& balances) const override {
-    balances["fluid"].stored += (exchanged_->now() - counted_->now()).sum();
+    balances["fluid"].stored += sum_owned(mesh_, Location::cell, exchanged_->now() - counted_->now());
   }
 
   void hold_constants(ConstantModes& modes) const override { modes.tie(*pressures_[0], *pressures_[1]); }

@@ -71,7 +71,7 @@ class HeatExchange : public Coupler {
           const double resistance = term.matrix.entries().coeff(w, w);
           if (resistance > 0) in_front[w] = 1 / resistance;
         }
-    replicate(mesh_, Location::wall, 1, in_front);
+    exchange(mesh_, Location::wall, 1, in_front);
     const Vector scale = (conductance_ + in_front).cwiseInverse();
     of_flux_ = scale;
     of_temperature_ = scale.cwiseProduct(conductance_);

@@ -82,7 +82,7 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
           SPREKK_ASSERT(std::isfinite(resistance), w, resistance);
           if (resistance > 0) matrix_conductance_[w] = 1 / resistance;
         }
-    replicate(mesh_, Location::wall, 1, matrix_conductance_);
+    exchange(mesh_, Location::wall, 1, matrix_conductance_);
   }
 
   void assemble(Assembly& assembly, const StepTime& step) const override {
@@ -164,7 +164,7 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
 
   /// The amount that the matrix has received and the fracture has not counted yet is stored in both: it is subtracted.
   void balance(std::map<std::string, Balance>& balances) const override {
-    balances["fluid"].stored -= (exchanged_.now() - counted_.now()).sum();
+    balances["fluid"].stored -= sum_owned(mesh_, Location::wall, exchanged_.now() - counted_.now());
   }
 
   void hold_constants(ConstantModes& modes) const override {

@@ -126,7 +126,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
   bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {
     Vector compliance = rock_.wall_compliance();
-    replicate(mesh_, Location::fracture_cell, dimension, compliance);
+    exchange(mesh_, Location::fracture_cell, dimension, compliance);
     compliance_ = positive(std::move(compliance));
     for (FractureContact* contact : contacts_) {
       contact->set_wall_stiffness(compliance_.cwiseInverse());

@@ -4,6 +4,7 @@
 
 #include "components/capabilities/cold.hpp"
 #include "components/capabilities/usual_ranges.hpp"
+#include "framework/assembly/add_totals.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/units_of_amounts.hpp"
@@ -238,11 +239,7 @@ void FractureHeat::after_solve(const std::vector<Field*>& solved, const StepTime
 void FractureHeat::balance(std::map<std::string, Balance>& balances) const {
   Balance& heat = balances["heat"];
   heat.unit = energy_unit;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    heat.stored += cumulative_.now()[2 * i];
-    heat.outflow += cumulative_.now()[2 * i + 1];
-    heat.throughput += cumulative_.now().segment<2>(2 * i).lpNorm<1>();
-  }
+  add_totals(heat, mesh_, cumulative_);
 }
 
 std::vector<double> FractureHeat::switch_times() const {

@@ -97,7 +97,7 @@ void MatrixFlow::discretize() {
 void MatrixFlow::add_known_within_cells(const Field& field, KnownWithinCells& known) const {
   if (&field != &pressure_ || is_sealed_ || wall_pressure().constant.size() == 0) return;  // or no step has begun
   Vector at_walls = wall_pressure().accepted();
-  replicate(mesh_, Location::wall, 1, at_walls);
+  exchange(mesh_, Location::wall, 1, at_walls);
   for (int wall = 0; wall < mesh_.wall_count(); ++wall)
     if (is_behind_wall(wall)) known.at_faces[mesh_.wall_face(wall)] = at_walls[wall];
 }

@@ -142,7 +142,7 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
           out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
     }
   }
-  replicate(mesh_, Location::cell, dimension, velocity);
+  exchange(mesh_, Location::cell, dimension, velocity);
   fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "components/matrix_flow/buoyancy.hpp"
+#include "framework/assembly/add_totals.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
@@ -125,7 +126,7 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
     sums[3 * c + 1] += step.dt * source_[c];
   }
   for (const auto& [face, cell] : outer_faces_) sums[3 * cell + 2] += step.dt * fluxes[face];
-  replicate(mesh_, Location::cell, 3, sums);
+  exchange(mesh_, Location::cell, 3, sums);
   cumulative_.set(std::move(sums));
   solved_fluxes_ = fluxes;
 }
@@ -133,12 +134,7 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
 void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {
   Balance& fluid = balances["fluid"];
   fluid.unit = volume_unit;
-  for (int c = 0; c < mesh_.cell_count(); ++c) {
-    fluid.stored += cumulative_.now()[3 * c];
-    fluid.injected += cumulative_.now()[3 * c + 1];
-    fluid.outflow += cumulative_.now()[3 * c + 2];
-    fluid.throughput += cumulative_.now().segment<3>(3 * c).lpNorm<1>();
-  }
+  add_totals(fluid, mesh_, cumulative_);
 }
 
 bool MatrixFlow::stores_nothing_somewhere() const {

@@ -6,6 +6,7 @@
 
 #include "components/capabilities/cold.hpp"
 #include "components/capabilities/overshoots.hpp"
+#include "framework/assembly/add_totals.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
@@ -203,19 +204,14 @@ void MatrixHeat::after_solve(const std::vector<Field*>& solved, const StepTime& 
   }
   for (int f = 0; f < mesh_.face_count(); ++f)
     if (mesh_.face_side[f] != none) sums[3 * mesh_.face_cells[f][0] + 2] += step.dt * fluxes[f];
-  replicate(mesh_, Location::cell, 3, sums);
+  exchange(mesh_, Location::cell, 3, sums);
   cumulative_.set(std::move(sums));
 }
 
 void MatrixHeat::balance(std::map<std::string, Balance>& balances) const {
   Balance& heat = balances["heat"];
   heat.unit = energy_unit;
-  for (int c = 0; c < mesh_.cell_count(); ++c) {
-    heat.stored += cumulative_.now()[3 * c];
-    heat.injected += cumulative_.now()[3 * c + 1];
-    heat.outflow += cumulative_.now()[3 * c + 2];
-    heat.throughput += cumulative_.now().segment<3>(3 * c).lpNorm<1>();
-  }
+  add_totals(heat, mesh_, cumulative_);
 }
 
 void MatrixHeat::note_input(Notes& notes) const {

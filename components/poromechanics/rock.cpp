@@ -96,7 +96,7 @@ void Rock::count_from_here(const SettledFields& settled) {
 void Rock::count_from_equilibrium() {
   SettledRock settled;
   settled.forces = face_forces();
-  replicate(mesh_, Location::face, dimension, settled.forces);
+  exchange(mesh_, Location::face, dimension, settled.forces);
   settled.stress = mean_stress();
   settled.displacements = boundary_values_;
   for (int f = 0; f < mesh_.face_count(); ++f)
@@ -104,7 +104,7 @@ void Rock::count_from_equilibrium() {
       if (conditions_[f][k] != MechanicalCondition::displacement) settled.displacements[dimension * f + k] = 0;
   if (wall_traction_) {
     jumps_ = jump_.now();
-    replicate(mesh_, Location::fracture_cell, dimension, jumps_);
+    exchange(mesh_, Location::fracture_cell, dimension, jumps_);
   }
   settled_ = std::move(settled);
   displacement_.set_both(Vector::Zero(displacement_.size()));

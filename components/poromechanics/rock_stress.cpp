@@ -21,7 +21,7 @@ Vector Rock::outer_displacement() const {
   if (wall_traction_) values += wall_forces_ * wall_load();
   Vector displacement = operators_.trace_displacement * displacement_.now() + operators_.trace_boundary * values;
   for (const Load& load : loads_) displacement += operators_.trace_stress * load.stress();
-  replicate(mesh_, Location::face, dimension, displacement);
+  exchange(mesh_, Location::face, dimension, displacement);
   return displacement;
 }
 
@@ -62,7 +62,7 @@ Vector Rock::mean_stress() const {
     for (int c = 0; c < mesh_.cell_count(); ++c)
       stress.segment<3>(3 * c) += stiffness_.excavation().support(c) * of_moments.segment<3>(3 * c);
   }
-  replicate(mesh_, Location::cell, 3, stress);
+  exchange(mesh_, Location::cell, 3, stress);
   return stress;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/assembly/add_totals.hpp"
 #include "framework/config/data.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
@@ -78,23 +79,15 @@ void CarriedHeat::count(const std::vector<Stream>& streams, const std::vector<do
   };
   for (int i = 0; i < fluid.size(); ++i)
     if (!is_noise(i)) fluid[i] += dt * net[i];
-  replicate(*mesh_, location, 1, fluid);
+  exchange(*mesh_, location, 1, fluid);
   const Vector stored =
       fluid.cwiseProduct(temperature->now()) - received->accepted().cwiseProduct(temperature->accepted());
   for (int i = 0; i < fluid.size(); ++i) sums[3 * i] += fluid_heat_capacity_ * stored[i];
-  replicate(*mesh_, location, 3, sums);
+  exchange(*mesh_, location, 3, sums);
   received->set(std::move(fluid));
   cumulative->set(std::move(sums));
 }
 
-void CarriedHeat::add_to(Balance& heat) const {
-  const Vector& sums = cumulative->now();
-  for (int i = 0; i < temperature->size(); ++i) {
-    heat.stored += sums[3 * i];
-    heat.injected += sums[3 * i + 1];
-    heat.outflow += sums[3 * i + 2];
-    heat.throughput += sums.segment<3>(3 * i).lpNorm<1>();
-  }
-}
+void CarriedHeat::add_to(Balance& heat) const { add_totals(heat, *mesh_, *cumulative); }
 
 }  // namespace sprekk::couplers

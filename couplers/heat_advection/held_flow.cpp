@@ -36,7 +36,7 @@ void HeldFlow::take(const IsSolved& is_solved, const StepTime& step) {
   const bool has_length = step.end > step.start;  // a state that is settled has none
   if (flux_ && is_solved(*flow_.pressure_in_rock)) {
     Vector fluxes = flow_.matrix->face_fluxes();
-    replicate(*mesh_, Location::face, 1, fluxes);
+    exchange(*mesh_, Location::face, 1, fluxes);
     if (has_length) in_rock_.add(step, {fluxes, flow_.matrix->fluid_sources()});
     flux_->set(std::move(fluxes));
     is_taken_ = true;

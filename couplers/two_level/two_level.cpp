@@ -134,7 +134,7 @@ class TwoLevel : public Coupler, public FollowsMesh, public TipSurroundings {
     update_pore_stress();
     traction_ = walls_.wall_traction().now();
     jump_ = is_cell_centred() ? jump_between_cells() : walls_.displacement_jump().now();
-    replicate(mesh_, Location::fracture_cell, 2, jump_);
+    exchange(mesh_, Location::fracture_cell, 2, jump_);
     if (!contacts_.empty()) fluid_traction_ = traction_ - contacts_.traction();
   }
 
@@ -308,7 +308,7 @@ class TwoLevel : public Coupler, public FollowsMesh, public TipSurroundings {
 
   /// Where walls let fluid through.
   std::vector<std::optional<double>> pressures_at_walls(Vector all) const {
-    replicate(mesh_, Location::wall, 1, all);
+    exchange(mesh_, Location::wall, 1, all);
     const Vector permeability = fluid_->normal_permeability().value;
     std::vector<std::optional<double>> pressures;
     for (int wall = 0; wall < mesh_.wall_count(); ++wall)

@@ -12,7 +12,7 @@ namespace sprekk {
 /// A linear function of fields that a component offers where it has no field of that quantity: for example the pressure
 /// at the walls as a function of the pressures of the cells and the flux through the walls. All matrices have
 /// constant.size() rows. With several processes, only the rows of entities that the process owns are right. Code that
-/// needs all values, and not only those that become rows of an assembly, calls `replicate`.
+/// needs all values, and not only those that become rows of an assembly, calls `exchange`.
 struct LinearExpression {
   /// matrix · field.
   struct Term {

@@ -33,13 +33,21 @@ bool is_owned(const Mesh& mesh, Location location, int entity) {
   return parallel::size() == 1 || entity_rank(mesh, location, entity) == parallel::rank();
 }
 
-void replicate(const Mesh& mesh, Location location, int components, Vector& values) {
+void exchange(const Mesh& mesh, Location location, int components, Vector& values) {
   SPREKK_EXPECT(values.size() == static_cast<Eigen::Index>(entity_count(mesh, location)) * components, values.size(),
                 components);
   if (parallel::size() == 1) return;
   for (int i = 0; i < values.size() / components; ++i)
     if (!is_owned(mesh, location, i)) values.segment(i * components, components).setZero();
   parallel::sum(values);
+}
+
+double sum_owned(const Mesh& mesh, Location location, const Vector& values) {
+  if (parallel::size() == 1) return values.sum();
+  Vector owned = values;
+  for (int i = 0; i < owned.size(); ++i)
+    if (!is_owned(mesh, location, i)) owned[i] = 0;
+  return parallel::sum(owned.sum());
 }
 
 std::vector<char> nodes_to_discretize(const Mesh& mesh) {

@@ -9,8 +9,12 @@ namespace sprekk {
 int entity_rank(const Mesh& mesh, Location location, int entity);
 bool is_owned(const Mesh& mesh, Location location, int entity);  ///< by this process
 
-/// Makes values that are right on the owned entities right everywhere. Collective; does nothing in a single process.
-void replicate(const Mesh& mesh, Location location, int components, Vector& values);
+/// Gives entities that other processes own (ghosts) the values of their owners. Collective; does nothing in a single
+/// process.
+void exchange(const Mesh& mesh, Location location, int components, Vector& values);
+
+/// The sum over all entities of values, one each, as their owners have them. Collective.
+double sum_owned(const Mesh& mesh, Location location, const Vector& values);
 
 /// The nodes whose interaction regions this process has to discretize: those of its own cells, and of all walls, so
 /// that the rows of its own cells and fracture cells are complete. Empty, meaning all, in a single process.

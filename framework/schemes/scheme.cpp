@@ -123,83 +123,83 @@ std::vector<Scheme> stabilized(const Model& model, const Scheme& scheme) {
         all.back().stabilizations[g] = name;
       }
     }
-    return all;
   }
+  return all;
+}
 
-  /// Whether all unknowns of a group are on interfaces.
-  bool is_on_interfaces(const Model& model, const Group& group) {
-    return std::ranges::none_of(model.fields().all(), [&](const auto& field) {
-      return is_bulk(field->spec().role.kind()) &&
-             std::ranges::any_of(group, [&](const std::string& component) { return is_unknown_of(*field, component); });
-    });
-  }
+/// Whether all unknowns of a group are on interfaces.
+bool is_on_interfaces(const Model& model, const Group& group) {
+  return std::ranges::none_of(model.fields().all(), [&](const auto& field) {
+    return is_bulk(field->spec().role.kind()) &&
+           std::ranges::any_of(group, [&](const std::string& component) { return is_unknown_of(*field, component); });
+  });
+}
 
-  /// The unit of a component's cumulative balance: what it conserves; or nothing.
-  std::string conserved_unit(const Model& model, const std::string& component) {
-    for (const auto& field : model.fields().all())
-      if (const FieldSpec& spec = field->spec();
-          spec.owner == component && spec.is_amount && !spec.accepted_with.empty())
-        return spec.unit;
-    return "";
-  }
+/// The unit of a component's cumulative balance: what it conserves; or nothing.
+std::string conserved_unit(const Model& model, const std::string& component) {
+  for (const auto& field : model.fields().all())
+    if (const FieldSpec& spec = field->spec(); spec.owner == component && spec.is_amount && !spec.accepted_with.empty())
+      return spec.unit;
+  return "";
+}
 
-  /// Whether a group with unknowns of the bulk has a balance on interfaces, of what waiting unknowns of the bulk
-  /// conserve as well: only what interfaces store determines it then, unless these unknowns answer.
-  bool has_balance_apart(const Model& model, const Group& group) {
-    const auto is_in_group = [&](const std::string& component) { return std::ranges::count(group, component) > 0; };
-    return std::ranges::any_of(group, [&](const std::string& one) {
-      const std::string unit = conserved_unit(model, one);
-      if (unit.empty() || !is_on_interfaces(model, {one})) return false;
-      bool waits = false, is_solved = false;
-      for (const auto& other : model.components()) {
-        if (conserved_unit(model, other->name()) != unit || is_on_interfaces(model, {other->name()})) continue;
-        (is_in_group(other->name()) ? is_solved : waits) = true;
-      }
-      return waits && !is_solved;
-    });
-  }
-
-  /// Whether components that need others are solved with them, or in a group that has a response.
-  bool are_determined(const Model& model, const Scheme& scheme) {
-    for (std::size_t g = 0; g < scheme.groups.size(); ++g) {
-      if (scheme.stabilization(g) == response) continue;
-      const auto is_in = [&](const std::string& component) {
-        return std::ranges::count(scheme.groups[g], component) > 0;
-      };
-      for (const Part* part : model.parts())
-        for (const Dependence& dependence : part->dependences())
-          if (is_in(dependence.component) && !is_in(dependence.on)) return false;
+/// Whether a group with unknowns of the bulk has a balance on interfaces, of what waiting unknowns of the bulk
+/// conserve as well: only what interfaces store determines it then, unless these unknowns answer.
+bool has_balance_apart(const Model& model, const Group& group) {
+  const auto is_in_group = [&](const std::string& component) { return std::ranges::count(group, component) > 0; };
+  return std::ranges::any_of(group, [&](const std::string& one) {
+    const std::string unit = conserved_unit(model, one);
+    if (unit.empty() || !is_on_interfaces(model, {one})) return false;
+    bool waits = false, is_solved = false;
+    for (const auto& other : model.components()) {
+      if (conserved_unit(model, other->name()) != unit || is_on_interfaces(model, {other->name()})) continue;
+      (is_in_group(other->name()) ? is_solved : waits) = true;
     }
-    return true;
-  }
+    return waits && !is_solved;
+  });
+}
 
-  std::vector<std::vector<Group>> partitions(const std::vector<Group>& atoms) {
-    std::vector<std::vector<Group>> all;
-    std::vector<Group> begin;
-    partition(atoms, 0, begin, all);
-    return all;
+/// Whether components that need others are solved with them, or in a group that has a response.
+bool are_determined(const Model& model, const Scheme& scheme) {
+  for (std::size_t g = 0; g < scheme.groups.size(); ++g) {
+    if (scheme.stabilization(g) == response) continue;
+    const auto is_in = [&](const std::string& component) {
+      return std::ranges::count(scheme.groups[g], component) > 0;
+    };
+    for (const Part* part : model.parts())
+      for (const Dependence& dependence : part->dependences())
+        if (is_in(dependence.component) && !is_in(dependence.on)) return false;
   }
+  return true;
+}
 
-  /// The orders of all partitions in which groups on interfaces alone, and those with a balance there apart from that
-  /// of the bulk, have the Schur complement of waiting unknowns.
-  std::vector<Scheme> with_responses(const Model& model) {
-    std::vector<Scheme> all;
-    for (const std::vector<Group>& groups : partitions(atoms(model, Apart::with_response))) {
-      if (groups.size() == 1) continue;
-      for (const std::vector<Group>& ordered : orders(groups)) {
-        Scheme scheme;
-        scheme.groups = ordered;
-        for (std::size_t g = 0; g < ordered.size(); ++g)
-          if (is_on_interfaces(model, ordered[g]) || has_balance_apart(model, ordered[g]))
-            scheme.stabilizations[g] = response;
-        // Where all groups are on interfaces, none of them has to wait for the bulk.
-        const auto is_alone = [&](const Group& group) { return is_on_interfaces(model, group); };
-        if (scheme.stabilizations.empty() || std::ranges::all_of(ordered, is_alone)) continue;
-        if (are_determined(model, scheme)) all.push_back(std::move(scheme));
-      }
+std::vector<std::vector<Group>> partitions(const std::vector<Group>& atoms) {
+  std::vector<std::vector<Group>> all;
+  std::vector<Group> begin;
+  partition(atoms, 0, begin, all);
+  return all;
+}
+
+/// The orders of all partitions in which groups on interfaces alone, and those with a balance there apart from that
+/// of the bulk, have the Schur complement of waiting unknowns.
+std::vector<Scheme> with_responses(const Model& model) {
+  std::vector<Scheme> all;
+  for (const std::vector<Group>& groups : partitions(atoms(model, Apart::with_response))) {
+    if (groups.size() == 1) continue;
+    for (const std::vector<Group>& ordered : orders(groups)) {
+      Scheme scheme;
+      scheme.groups = ordered;
+      for (std::size_t g = 0; g < ordered.size(); ++g)
+        if (is_on_interfaces(model, ordered[g]) || has_balance_apart(model, ordered[g]))
+          scheme.stabilizations[g] = response;
+      // Where all groups are on interfaces, none of them has to wait for the bulk.
+      const auto is_alone = [&](const Group& group) { return is_on_interfaces(model, group); };
+      if (scheme.stabilizations.empty() || std::ranges::all_of(ordered, is_alone)) continue;
+      if (are_determined(model, scheme)) all.push_back(std::move(scheme));
     }
-    return all;
   }
+  return all;
+}
 
 }  // namespace
 

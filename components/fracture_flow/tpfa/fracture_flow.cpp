@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/assembly/add_totals.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
@@ -336,12 +337,7 @@ void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
   Balance& fluid = balances["fluid"];
   fluid.unit = volume_unit;
   fluid.is_closed = fluid.is_closed && prescribed_.empty();
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    fluid.stored += cumulative_.now()[3 * i];
-    fluid.injected += cumulative_.now()[3 * i + 1];
-    fluid.outflow += cumulative_.now()[3 * i + 2];
-    fluid.throughput += cumulative_.now().segment<3>(3 * i).lpNorm<1>();
-  }
+  add_totals(fluid, mesh_, cumulative_);
 }
 
 std::vector<double> FractureFlow::switch_times() const {

@@ -226,7 +226,7 @@ void FemRock::count_from_equilibrium() {
   settled.displacements = given_.displacements;
   if (wall_traction_) {
     jumps_ = jump_.value.now();
-    replicate(mesh_, Location::fracture_cell, dimension, jumps_);
+    exchange(mesh_, Location::fracture_cell, dimension, jumps_);
   }
   settled_ = std::move(settled);
   for (Field* field : unknowns()) field->set_both(Vector::Zero(field->size()));
