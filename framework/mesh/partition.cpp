@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <random>
 #include <span>
 #include <stdexcept>
 
@@ -40,13 +41,20 @@ void bisect(Mesh& mesh, std::span<int> cells, int first, int last, const Share& 
 
 }  // namespace
 
-void partition(Mesh& mesh, int ranks) {
+void partition(Mesh& mesh, int ranks, Division division) {
   if (ranks < 1) throw std::logic_error("partition: there must be at least one rank");
-  std::vector<int> cells(mesh.cell_count());
-  std::iota(cells.begin(), cells.end(), 0);
-  const long long total = mesh.cell_count();
   mesh.cell_rank.assign(mesh.cell_count(), 0);
-  bisect(mesh, cells, 0, ranks, [&](int rank) { return rank * total / ranks; });
+  if (division == Division::compact) {
+    std::vector<int> cells(mesh.cell_count());
+    std::iota(cells.begin(), cells.end(), 0);
+    const long long total = mesh.cell_count();
+    bisect(mesh, cells, 0, ranks, [&](int rank) { return rank * total / ranks; });
+  } else if (division == Division::scattered) {
+    std::minstd_rand random(1);
+    for (int& rank : mesh.cell_rank) rank = static_cast<int>(random() % static_cast<unsigned>(ranks));
+  } else if (mesh.fracture_cell_count() > 0) {
+    mesh.cell_rank[mesh.face_cells[mesh.fracture_cells[0].faces[1]][0]] = ranks - 1;
+  }
   mesh.version = next_mesh_version();
 }
 

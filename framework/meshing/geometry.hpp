@@ -8,6 +8,7 @@
 
 #include "framework/config/input_error.hpp"
 #include "framework/config/parameter.hpp"
+#include "framework/mesh/partition.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk {
@@ -74,6 +75,7 @@ struct MeshOptions {
   std::array<int, 2> cells = {0, 0};  ///< structured: rectangles along x and y; 0: as many as `size` gives
   double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge at the node, 0 to 0.4
   int seed = 1;           ///< of the random distortion
+  Division division = Division::compact;  ///< among processes
   Origin origin = {};
 };
 

@@ -34,9 +34,9 @@ Restart::Restart(const Scene& scene, const std::filesystem::path& file, RunOutpu
   require_scene(checkpoint_, file, scene.name, scene_fingerprint(scene), change_of(scene, file));
 }
 
-Mesh Restart::mesh() const {
+Mesh Restart::mesh(Division division) const {
   Mesh mesh = checkpoint_.mesh;
-  partition(mesh, parallel::size());
+  partition(mesh, parallel::size(), division);
   return mesh;
 }
 

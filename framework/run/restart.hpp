@@ -17,7 +17,8 @@ class Restart {
   /// Collective.
   Restart(const Scene& scene, const std::filesystem::path& file, RunOutput& output);
 
-  Mesh mesh() const;  ///< of the checkpoint, which may have grown; divided among today's processes
+  /// Of the checkpoint, which may have grown; divided among the processes of today.
+  Mesh mesh(Division division) const;
 
   /// Puts the checkpoint's values into the state, whose model is on `mesh()`. Throws InputError when they do not fit.
   void restore(SimulationState& state) const;

@@ -48,7 +48,7 @@ std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Restar
                                   Progress& progress) {
   progress.watch();
   progress.phase("building the model");
-  if (restart) return std::make_unique<Model>(scene, restart->mesh(), std::move(log));
+  if (restart) return std::make_unique<Model>(scene, restart->mesh(scene.mesh.division), std::move(log));
   auto model = std::make_unique<Model>(scene, std::move(log));
   take_start(*model);
   return model;

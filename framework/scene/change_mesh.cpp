@@ -91,7 +91,7 @@ GrownMesh grow_mesh(const Model& before, std::size_t grow_step, const std::vecto
 
 MeshChangeResult change_mesh(const Model& before, std::size_t grow_step, GrownMesh grown, const StepTime& data,
                              IterationLog log) {
-  partition(grown.mesh, parallel::size());
+  partition(grown.mesh, parallel::size(), before.scene().mesh.division);
   MeshChangeResult result{
       std::make_unique<Model>(before.scene(), std::move(grown.mesh), std::move(log)), grown.smallest_angle, {}};
   Model& model = *result.model;

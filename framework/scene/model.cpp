@@ -38,7 +38,7 @@ Mesh make_mesh(const Scene& scene) {
   now_doing("the mesh");
   Mesh mesh = generate_mesh(scene.geometry, scene.mesh);
 
-  partition(mesh, parallel::size());
+  partition(mesh, parallel::size(), scene.mesh.division);
 
   return mesh;
 }

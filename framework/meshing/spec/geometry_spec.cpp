@@ -214,7 +214,7 @@ void take_cells(const Node& whole, const std::vector<double>& cells, MeshOptions
 
 Spec mesh_spec(MeshOptions& options) {
   struct Input {
-    std::string kind = "unstructured", shape = "triangles";
+    std::string kind = "unstructured", shape = "triangles", division = "compact";
     std::vector<double> cells;
   };
   const auto input = std::make_shared<Input>();
@@ -272,9 +272,17 @@ Spec mesh_spec(MeshOptions& options) {
                  .range = between(0, 0.4),
                  .doc = "Moves inner nodes at random by up to this part of the shortest edge there, for tests."});
   spec.integer("seed", options.seed, {.doc = "Which random distortion."});
+  spec.choice("division", input->division,
+              {{"compact", "parts of equal size with short borders"},
+               {"scattered", "each cell at random, for tests"},
+               {"lopsided", "one cell at a wall for the last process and nothing for those before it, for tests"}},
+              {.doc = "How cells are divided among processes."});
   spec.check([input, &options](const Node& whole) {
     options.origin = whole.origin;
     options.kind = input->kind == "structured" ? MeshOptions::Kind::structured : MeshOptions::Kind::unstructured;
+    options.division = input->division == "scattered"  ? Division::scattered
+                       : input->division == "lopsided" ? Division::lopsided
+                                                       : Division::compact;
     options.shape = input->shape == "triangles" ? MeshOptions::Shape::triangles : MeshOptions::Shape::quadrilaterals;
     if (!input->cells.empty()) take_cells(whole, input->cells, options);
   });
