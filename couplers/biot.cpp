@@ -16,7 +16,6 @@
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/counts_later.hpp"
 #include "framework/assembly/follows_mesh.hpp"
-#include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/stabilizes.hpp"
@@ -48,8 +47,7 @@ class Biot : public Coupler,
              public Stabilizes,
              public KeepsTotals,
              public CountsAmounts,
-             public CountsLater,
-             public HoldsAmounts {
+             public CountsLater {
  public:
   Biot(const CouplerContext& context, const BiotOptions& options)
       : Coupler(context.name),

@@ -13,7 +13,7 @@
 #include "components/contact/trial_state.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/follows_mesh.hpp"
-#include "framework/assembly/gains_from_stages.hpp"
+#include "framework/assembly/heeds_stages.hpp"
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/notes_start.hpp"
@@ -70,7 +70,7 @@ class FrictionalContact : public Component,
                           public FractureContact,
                           public CountsFromHere,
                           public NotesStart,
-                          public GainsFromStages,
+                          public HeedsStages,
                           public LivesInPart,
                           public Softening,
                           public LimitsStep {

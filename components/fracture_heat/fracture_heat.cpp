@@ -4,7 +4,6 @@
 
 #include "components/capabilities/cold.hpp"
 #include "components/capabilities/usual_ranges.hpp"
-#include "framework/assembly/add_totals.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/units_of_amounts.hpp"

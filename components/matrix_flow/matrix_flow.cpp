@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "components/matrix_flow/buoyancy.hpp"
-#include "framework/assembly/add_totals.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"

@@ -6,7 +6,6 @@
 
 #include "components/capabilities/cold.hpp"
 #include "components/capabilities/overshoots.hpp"
-#include "framework/assembly/add_totals.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"

@@ -11,7 +11,7 @@ void add_place(Spec& spec, Perforation& place) {
   spec.text("fracture", place.fracture, {.doc = "It is open to this fracture at `at`; without it, to the rock."});
   spec.quantity(
       "index", place.index,
-      {.unit = volume_rate_by_pressure_unit,
+      {.unit = dimension == 2 ? "m^2/(Pa*s)" : "m^3/(Pa*s)",
        .range = positive(),
        .doc = "Rate over difference of pressure to the cells around it. Without it, in rock it follows from the "
               "mesh, the radius and the skin; in a fracture the well has the pressure at its point."});

@@ -25,6 +25,10 @@ struct Balance {
   bool is_closed = true;  ///< false where prescribed values replace a balance, which lets an unknown amount in
 };
 
+/// Adds the totals of a cumulative field, (stored, outflow) or (stored, injected, outflow) of each entity, each as its
+/// owner has it. Collective.
+void add_totals(Balance& balance, const Mesh& mesh, const Field& cumulative);
+
 /// A column of history.csv.
 struct Quantity {
   std::string name, unit;

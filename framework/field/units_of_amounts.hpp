@@ -7,7 +7,6 @@ namespace sprekk {
 
 inline constexpr const char* volume_unit = dimension == 2 ? "m^2" : "m^3";
 inline constexpr const char* volume_rate_unit = dimension == 2 ? "m^2/s" : "m^3/s";
-inline constexpr const char* volume_rate_by_pressure_unit = dimension == 2 ? "m^2/(Pa*s)" : "m^3/(Pa*s)";
 inline constexpr const char* energy_unit = dimension == 2 ? "J/m" : "J";
 
 }  // namespace sprekk

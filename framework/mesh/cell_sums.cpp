@@ -22,10 +22,9 @@ SparseMatrix cell_sums(const Mesh& mesh, const SparseMatrix& faces, int componen
     for (int k = 0; k < components; ++k) {
       if (mesh.cell_rank[c] == rank) {
         // Merge of a few sorted rows.
-        constexpr int most_faces = 6;
         const int count = mesh.cell_faces[c].size();
-        int at[most_faces], end[most_faces];
-        double sign[most_faces];
+        int at[6], end[6];  // a hexahedron has so many
+        double sign[6];
         for (int j = 0; j < count; ++j) {
           const int face = mesh.cell_faces[c][j];
           at[j] = outer[face * components + k];

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/assembly/gains_from_stages.hpp"
+#include "framework/assembly/heeds_stages.hpp"
 #include "framework/linear/direct/blas_memory.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/network_shape.hpp"
@@ -84,7 +84,7 @@ void note_stages(const Model& model, Notes& notes) {
   if (model.scene().time.scheme != TimeScheme::backward_euler) return;
   if (!std::ranges::all_of(model.parts(), &Part::allows_stages)) return;
   for (const Part* part : model.parts()) {
-    const auto* gains = dynamic_cast<const GainsFromStages*>(part);
+    const auto* gains = dynamic_cast<const HeedsStages*>(part);
     const std::string loss = gains ? gains->loss_of_one_stage() : "";
     if (!loss.empty())
       notes.add("one stage where two are far better",

@@ -4,7 +4,6 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/block_system.hpp"
-#include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/needs_direct_solver.hpp"
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/invariants.hpp"
@@ -181,7 +180,7 @@ std::vector<const Field*> SolveStep::held_amounts() const {
   if (options_.stabilization == "none" || options_.stabilization == response) return held;
   const std::vector<const Field*> waits = waiting();
   for (const Part* part : parts_)
-    if (const auto* holds = dynamic_cast<const HoldsAmounts*>(part))
+    if (const auto* holds = dynamic_cast<const Stabilizes*>(part))
       for (const Field* field : holds->holds_amounts_of(options_.stabilization))
         if (std::ranges::count(waits, field) > 0 && std::ranges::count(held, field) == 0) held.push_back(field);
   return held;
@@ -257,7 +256,7 @@ void SolveStep::check() const {
   for (const auto* part : parts_with<Stabilizes>(parts_)) part->stabilize(options_.stabilization, stabilization);
   const auto is_solved = [&](const auto& entry) { return std::ranges::count(fields_, entry.first) > 0; };
   for (const Part* part : parts_)
-    if (const auto* holds = dynamic_cast<const HoldsAmounts*>(part))
+    if (const auto* holds = dynamic_cast<const Stabilizes*>(part))
       for (const Field* field : holds->holds_amounts_of(options_.stabilization)) {
         const std::string& owner = field->spec().owner;
         if (std::ranges::count(waiting(), field) == 0)

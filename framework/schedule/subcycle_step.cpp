@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "framework/assembly/follows_stages.hpp"
+#include "framework/assembly/heeds_stages.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk {
@@ -119,7 +119,7 @@ double SubcycleStep::summed_errors() const {
 void SubcycleStep::let_parts_take_stages(bool are_stages) {
   if (scheme_ == TimeScheme::backward_euler) return;  // substeps of a stage around it start where the stage does
   for (Part* part : parts_)
-    if (auto* follower = dynamic_cast<FollowsStages*>(part)) follower->take_stages(are_stages);
+    if (auto* follower = dynamic_cast<HeedsStages*>(part)) follower->take_stages(are_stages);
 }
 
 bool SubcycleStep::begins_with_jump(const StepTime& step) {

@@ -69,7 +69,7 @@ class SubcycleStep : public ScheduleStep {
   bool begins_with_jump(const StepTime& step);
   std::vector<Piece> pieces(const StepTime& step) const;
   StepStatus take(const std::vector<Piece>& pieces, const Course& course);
-  /// Tells the parts where the stages of the scheme begin and end (FollowsStages).
+  /// Tells the parts where the stages of the scheme begin and end (HeedsStages).
   void let_parts_take_stages(bool are_stages);
   void let_wait(const Course& course, const Piece& piece);
   /// Puts the fields to where they were at the end of this piece in the pass before, moved with the start of the piece.

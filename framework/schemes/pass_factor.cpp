@@ -6,7 +6,6 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/block_system.hpp"
-#include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/linear/direct/sparse_lu.hpp"
 #include "framework/schedule/held_amounts.hpp"
@@ -46,7 +45,7 @@ std::vector<ResponseTerm> PassFactor::terms_of_held_amounts(const std::vector<st
   for (const Field* field : unknowns_)
     if (std::ranges::count(components, field->spec().owner) > 0) solved.push_back(field);
   for (const Part* part : model_.parts())
-    if (const auto* holds = dynamic_cast<const HoldsAmounts*>(part); holds && !stabilization.empty())
+    if (const auto* holds = dynamic_cast<const Stabilizes*>(part); holds && !stabilization.empty())
       for (const Field* field : holds->holds_amounts_of(stabilization))
         if (std::ranges::count(solved, field) == 0) held.push_back(field);
   return HeldAmounts(model_.mesh(), held, solved, model_.parts()).update(step_);

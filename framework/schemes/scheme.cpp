@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "framework/assembly/holds_amounts.hpp"
 #include "framework/assembly/stabilizes.hpp"
 
 namespace sprekk {
@@ -89,7 +88,7 @@ std::vector<std::vector<Group>> orders(const std::vector<Group>& groups) {
 /// else: these are solved apart from the owner of the balance.
 bool holds_amounts_for(const Coupler& coupler, const std::vector<std::string>& between, const std::string& name,
                        const Group& group) {
-  const auto* holds = dynamic_cast<const HoldsAmounts*>(&coupler);
+  const auto* holds = dynamic_cast<const Stabilizes*>(&coupler);
   if (!holds) return false;
   const auto is_in_group = [&](const std::string& component) { return std::ranges::count(group, component) > 0; };
   try {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "framework/config/input_error.hpp"
+#include "framework/linear/rigid_rotations.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/outer_ridges.hpp"
@@ -374,6 +375,43 @@ TEST(SpaceGeometry, VolumesAndCentresOfTheShapes) {
   const Measured tetrahedron = cell_geometry({{1, 1, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}}, {0, 1, 2, 3});
   EXPECT_NEAR(tetrahedron.measure, 1.0 / 6, 1e-15);
   EXPECT_LT((tetrahedron.center - Point(1.25, 1.25, 1.25)).norm(), 1e-15);
+}
+
+static_assert(dimension == 3 && symmetric_components == 6 && rigid_rotations == 3);
+
+Point random_point(std::mt19937& random) {
+  std::uniform_real_distribution<double> number(-1, 1);
+  Point point;
+  for (double& value : point) value = number(random);
+  return point;
+}
+
+TEST(SpaceFrames, RotationsDoNotStrainAndSpanThoseOfEveryAxis) {
+  std::mt19937 random(18);
+  const Point axis = random_point(random);
+  // Coefficients of the three rotations for w × x: of (x, y) the turn about z, of (x, z) against that about y.
+  const Point coefficients(axis[2], -axis[1], axis[0]);
+  for (int k = 0; k < 20; ++k) {
+    const Point a = random_point(random), b = random_point(random);
+    EXPECT_NEAR((rotated(a) * coefficients - axis.cross(a)).norm(), 0, 1e-15);
+    // The distance between two points does not change.
+    EXPECT_NEAR(((rotated(a) - rotated(b)).transpose() * (a - b)).norm(), 0, 1e-15);
+  }
+}
+
+TEST(SpaceFrames, AFractureCellTakesVectorsIntoItsFrameAndBack) {
+  std::mt19937 random(18);
+  FractureCell cell{};
+  cell.normal = random_point(random).normalized();
+  cell.tangents.col(0) = cell.normal.unitOrthogonal();
+  cell.tangents.col(1) = cell.normal.cross(cell.tangents.col(0));
+  EXPECT_NEAR((cell.to_local(cell.normal) - Point(1, 0, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((cell.to_local(cell.tangents.col(1)) - Point(0, 0, 1)).norm(), 0, 1e-15);
+  for (int k = 0; k < 20; ++k) {
+    const Point vector = random_point(random);
+    EXPECT_NEAR((cell.to_global(cell.to_local(vector)) - vector).norm(), 0, 1e-15);
+    EXPECT_NEAR(cell.to_local(vector).norm(), vector.norm(), 1e-15);
+  }
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "framework/assembly/add_totals.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"

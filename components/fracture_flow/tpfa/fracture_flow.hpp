@@ -17,7 +17,7 @@
 #include "components/fracture_flow/tpfa/options.hpp"
 #include "components/fracture_flow/tpfa/stored_fluid.hpp"
 #include "framework/assembly/follows_mesh.hpp"
-#include "framework/assembly/follows_stages.hpp"
+#include "framework/assembly/heeds_stages.hpp"
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
@@ -47,7 +47,7 @@ class FractureFlow : public Component,
                      public FractureFluid,
                      public FractureFluxes,
                      public BuoyantFractures,
-                     public FollowsStages,
+                     public HeedsStages,
                      public KeepsTotals,
                      public LivesInPart,
                      public MayStoreNothing {

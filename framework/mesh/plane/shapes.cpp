@@ -3,8 +3,8 @@
 namespace sprekk {
 
 const Shape* shape_with(int corners) {
-  static constexpr std::array<FaceNodes, 3> triangle{{{0, 1}, {1, 2}, {2, 0}}};
-  static constexpr std::array<FaceNodes, 4> quadrilateral{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+  static const std::array<FaceNodes, 3> triangle{{{0, 1}, {1, 2}, {2, 0}}};
+  static const std::array<FaceNodes, 4> quadrilateral{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
   static const std::array<Shape, 2> all{{{"triangle", 3, triangle}, {"quadrilateral", 4, quadrilateral}}};
   return corners == 3 || corners == 4 ? &all[corners - 3] : nullptr;
 }

@@ -21,7 +21,7 @@ struct GridData {
   std::vector<double> points;             ///< x, y, z of each
   std::vector<std::int64_t> cell_points;  ///< numbers of points, of one cell after the other
   std::vector<std::int64_t> cell_ends;    ///< of each cell, the number of entries of `cell_points` up to its end
-  int cell_dimension = 2;                 ///< of lines 1, of triangles and quadrilaterals 2, of bodies 3
+  int cell_dimension = 0;                 ///< of lines 1, of triangles and quadrilaterals 2, of bodies 3
   std::vector<Array> on_points, on_cells;
 
   int point_count() const { return static_cast<int>(points.size() / 3); }
