@@ -19,6 +19,7 @@
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/may_store_nothing.hpp"
 #include "framework/assembly/nonlinear_in_pieces.hpp"
+#include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
@@ -82,7 +83,8 @@ class MatrixFlow : public Component,
                    public KeepsTotals,
                    public LivesInPart,
                    public MayStoreNothing,
-                   public NonlinearInPieces {
+                   public NonlinearInPieces,
+                   public NotesStart {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
@@ -118,6 +120,7 @@ class MatrixFlow : public Component,
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
+  void note_start(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
   std::map<std::string, long> counts() const override {
     return {{"flux discretizations", discretizations_},
