@@ -13,6 +13,7 @@
 #include "framework/mesh/network_shape.hpp"
 #include "framework/mesh/planar.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/run/unchanging_data.hpp"
 
 namespace sprekk {
 
@@ -92,6 +93,19 @@ void note_stages(const Model& model, Notes& notes) {
   }
 }
 
+RunExtent extent_of(const Model& model) {
+  const TimeOptions& time = model.scene().time;
+  RunExtent extent{time.start, std::min(time.step, time.end - time.start), time.end};
+  const std::vector<Point>& nodes = model.mesh().nodes;
+  if (nodes.empty()) return extent;
+  extent.lowest = extent.highest = nodes.front();
+  for (const Point& node : nodes) {
+    extent.lowest = extent.lowest.cwiseMin(node);
+    extent.highest = extent.highest.cwiseMax(node);
+  }
+  return extent;
+}
+
 }  // namespace
 
 Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns) {
@@ -100,6 +114,7 @@ Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns)
   note_pockets(model.mesh(), notes);
   note_empty_regions(model.mesh(), notes);
   note_stages(model, notes);
+  note_unchanging_data(notes, model.scene().whole, extent_of(model));
   if (blas_in_use().is_reference)
     notes.add("reference BLAS",
               "the reference BLAS is in use, which makes sparse factorizations several times slower: "

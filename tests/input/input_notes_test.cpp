@@ -97,7 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
         Input{"flow.yaml",
               {"components.pore.boundary.right.pressure={table: " + table("pulse.csv") + ", of: t}", "time.step=60 s"},
               ""},
-        Input{"flow.yaml", {"components.pore.boundary.right.pressure={table: " + table("pulse.csv") + ", of: x}"}, ""},
+        Input{
+            "flow.yaml", {"components.pore.boundary.right.pressure={table: " + table("along_x.csv") + ", of: x}"}, ""},
         Input{"fractured.yaml",
               {"geometry.regions={a: {polygon: [[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]]}, b: {polygon: [[0, 0], [0.3, 0], "
                "[0.3, 0.3], [0, 0.3]]}}"},
@@ -157,6 +158,30 @@ INSTANTIATE_TEST_SUITE_P(
               "the fluid of 'conduit' is out of balance at the start by 9.81e+03 Pa/m in the fracture 'crack'"},
         Input{"fractured.yaml", {"components.conduit.gravity=[0, -9.81 m/s^2]"}, ""},  // the fracture lies level
         Input{"flow.yaml", {"components.pore.porosity=0.1"}, "'porosity' of 'pore' has no effect"},
+        Input{"flow.yaml",
+              {"components.pore.source=(if(t < 6, 0, 1e-9)) 1/s", "time.step=10 min"},
+              "'t < 6' of 'source' is the same throughout the run (it compares with 6 s, and the first step is 600 s "
+              "long)"},
+        Input{
+            "flow.yaml",
+            {"components.pore.source=(if(t >= 7200, 0, 1e-9)) 1/s"},
+            "'t >= 7200' of 'source' is the same throughout the run (it compares with 7200 s, and the run goes from 0 "
+            "to 3600 s)"},
+        Input{"flow.yaml", {"components.pore.source=(if(t < 6 h, 0, 1e-9)) 1/s"}, ""},
+        Input{"flow.yaml", {"components.pore.source=(if(t < 2000, 0, 1e-9)) 1/s"}, ""},
+        Input{"flow.yaml",
+              {"components.pore.permeability=(if(x < 500, 1, 2)*1e-14) m^2"},
+              "and the mesh goes from 0 to 1 m"},
+        Input{"flow.yaml", {"components.pore.permeability=(if(x < 0.5, 1, 2)*1e-14) m^2"}, ""},
+        Input{"flow.yaml",
+              {"components.pore.source=[{value: 1e-9 1/s, from: 2 h, to: 3 h}]"},
+              "a window of 'source' has no effect (it begins at 7200 s, and the run ends at 3600 s)"},
+        Input{"flow.yaml",
+              {"components.pore.source=[{value: 1e-9 1/s, to: 10 min}, {value: 1e-9 1/s, from: 5 min}]"},
+              "two windows of 'source' overlap from 300 to 600 s"},
+        Input{"flow.yaml",
+              {"components.pore.source=[{value: 1e-9 1/s, to: 10 min}, {value: 1e-9 1/s, from: 10 min}]"},
+              ""},
         Input{"flow.yaml", {"time.step=2 h"}, "'step' is 7200 s (the run is 3600 s long"},
         Input{"flow.yaml", {"time.step=1 h"}, ""}, Input{"flow.yaml", {"output.every=2 h"}, "'every' has no effect"},
         Input{"flow.yaml", {"output.every=1 h"}, ""},
