@@ -92,9 +92,11 @@ class TableReader {
     }
   }
 
+  static bool has_unit(const CsvHeading& heading) { return !heading.unit.empty() && is_unit(heading.unit); }
+
   /// Whether a column has the unit of a variable, or is called as the time is.
   bool may_be(const CsvHeading& heading, const std::string& variable) const {
-    if (is_unit(heading.unit)) return have_one_dimension(heading.unit, variable == "t" ? "s" : "m");
+    if (has_unit(heading)) return have_one_dimension(heading.unit, variable == "t" ? "s" : "m");
     std::string name = heading.name;
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
     return name == variable || (variable == "t" && name.find("time") != std::string::npos);
@@ -105,7 +107,8 @@ class TableReader {
     if (headings_.empty() || may_be(headings_.front(), variable)) return;
     const bool is_elsewhere =
         std::ranges::any_of(headings_, [&](const CsvHeading& heading) { return may_be(heading, variable); });
-    if (!is_elsewhere && !is_unit(headings_.front().unit)) return;
+    const std::string& first = headings_.front().name;
+    if (!is_elsewhere && !has_unit(headings_.front()) && first != "t" && first != "x" && first != "y") return;
     throw InputError(request_.where, fmt::format("the table {} has no column '{}'", quoted(request_.file), variable),
                      "it has " + listed(names()) + ", and the first one is taken where none has this name",
                      fmt::format("call the column of {} '{}'", variable == "t" ? "the time" : variable, variable));
