@@ -28,12 +28,28 @@ const std::string all_but_aperture =
     "{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}";
 
 Settings with_tips(const std::string& between) {
-  return {"components.tips={type: fine_fracture/quarter_point, size: 0.4 m}",
+  return {"components.tips={type: fine_fracture/quarter_point, size: 0.4 m, toughness: 1 MPa*m^0.5}",
           "couplers=[" + all_but_aperture +
               ", {type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, "
               "conduit]}, {type: two_level, between: " +
               between + "}]",
           "schedule=[{solve: [pore, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"};
+}
+
+/// Heat in rock and fracture, which fluid carries between these components.
+Settings with_heat(const std::string& between, const std::string& aperture) {
+  return {"components.heat={type: matrix_heat/tpfa, conductivity: 2 W/(m*K), heat_capacity: 2e6 J/(m^3*K)}",
+          "components.water={type: fracture_heat/tpfa, conductivity: 0.6 W/(m*K), heat_capacity: 4.2e6 J/(m^3*K), "
+          "aperture: " +
+              aperture + "}",
+          "components.heat.initial_temperature=300 K",
+          "components.water.initial_temperature=300 K",
+          "couplers=[" + all_but_aperture +
+              ", {type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, "
+              "conduit]}, {type: heat_exchange, between: [heat, water]}, {type: heat_advection, fluid_heat_capacity: "
+              "4.2e6 J/(m^3*K), between: " +
+              between + "}]",
+          "schedule=[{solve: [pore, rock, conduit, contact, heat, water]}]"};
 }
 
 std::string table(const char* name) {
@@ -238,6 +254,19 @@ INSTANTIATE_TEST_SUITE_P(
               {"couplers=[" + all_but_aperture +
                ", {type: aperture, between: [contact, conduit]}, {type: wall_traction, between: [rock, contact]}]"},
               "the pressure of conduit does not push the walls of fractures apart"},
+        Input{"fractured.yaml",
+              {with_tips("[rock, tips, conduit]")[1], with_tips("[rock, tips, conduit]")[2],
+               "components.tips={type: fine_fracture/quarter_point, size: 0.4 m}"},
+              "'grow tips' of the schedule has no effect (its tips have no toughness)"},
+        Input{
+            "fractured.yaml",
+            {"geometry.regions={a: {polygon: [[0, 0], [0.2, 0], [0.2, 1], [0, 1]]}, b: {polygon: [[0.1, 0], [0.25, 0], "
+             "[0.25, 0.3], [0.1, 0.3]]}}"},
+            "regions 'a' and 'b' overlap in"},
+        Input{"fractured.yaml", with_heat("[pore, heat]", "0.1 mm"), "the fluid of conduit carries no heat of water"},
+        Input{"fractured.yaml", with_heat("[pore, conduit, heat, water]", "0.3 mm"),
+              "the fracture 'crack' is 0.0003 m wide for its heat and 0.0001 m for its fluid"},
+        Input{"fractured.yaml", with_heat("[pore, conduit, heat, water]", "0.1 mm"), ""},
         Input{"fractured.yaml", with_tips("[rock, tips]"), "walls that grow on the fine level carry no fluid pressure"},
         Input{"fractured.yaml", with_tips("[rock, tips, conduit]"), ""},
         Input{"fractured.yaml",
