@@ -28,7 +28,7 @@ const std::string all_but_aperture =
     "{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}";
 
 Settings with_tips(const std::string& between) {
-  return {"components.tips={type: fine_fracture/quarter_point, size: 0.4 m, toughness: 1 MPa*m^0.5}",
+  return {"components.tips={type: fine_fracture/quarter_point, size: 0.4 m}",
           "couplers=[" + all_but_aperture +
               ", {type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, "
               "conduit]}, {type: two_level, between: " +
@@ -254,10 +254,6 @@ INSTANTIATE_TEST_SUITE_P(
               {"couplers=[" + all_but_aperture +
                ", {type: aperture, between: [contact, conduit]}, {type: wall_traction, between: [rock, contact]}]"},
               "the pressure of conduit does not push the walls of fractures apart"},
-        Input{"fractured.yaml",
-              {with_tips("[rock, tips, conduit]")[1], with_tips("[rock, tips, conduit]")[2],
-               "components.tips={type: fine_fracture/quarter_point, size: 0.4 m}"},
-              "'grow tips' of the schedule has no effect (its tips have no toughness)"},
         Input{
             "fractured.yaml",
             {"geometry.regions={a: {polygon: [[0, 0], [0.2, 0], [0.2, 1], [0, 1]]}, b: {polygon: [[0.1, 0], [0.25, 0], "
