@@ -48,6 +48,8 @@ class FractureTemperature {
   virtual std::optional<double> end_temperature(int point) const = 0;
   /// By how much heat is conducted between the middle of the fracture and each of its walls, W/(m^2 K).
   virtual const Vector& wall_conductance() const = 0;
+  /// The thickness of what stores and conducts heat at the start, m, one a fracture cell; nullptr where there is none.
+  virtual const Vector* thickness() const { return nullptr; }
 };
 
 }  // namespace sprekk

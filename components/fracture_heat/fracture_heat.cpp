@@ -96,6 +96,7 @@ FractureHeat::FractureHeat(const ComponentContext& context, const Options& optio
   initial_temperature_ = values(options_.initial_temperature);
   temperature_.set_both(initial_temperature_);
   const Vector aperture = values(options_.aperture), conductivity = values(options_.conductivity);
+  thickness_ = aperture;
   capacity_ = values(options_.heat_capacity).cwiseProduct(aperture);
   conductance_along_ = conductivity.cwiseProduct(aperture);
   wall_conductance_.resize(mesh_.wall_count());

@@ -50,6 +50,7 @@ class FractureHeat : public Component, public FractureTemperature, public KeepsT
   const Vector& heat_capacity() const override { return capacity_; }
   std::optional<double> end_temperature(int point) const override;
   const Vector& wall_conductance() const override { return wall_conductance_; }
+  const Vector* thickness() const override { return &thickness_; }
 
  private:
   const Data* end_condition(int point) const;  ///< nullptr where there is none
@@ -67,7 +68,7 @@ class FractureHeat : public Component, public FractureTemperature, public KeepsT
   Vector capacity_;                 ///< J/(m K)
   Vector conductance_along_;        ///< conductivity times aperture, W/K
   double largest_conductance_ = 0;  ///< of half a cell, W/(m K)
-  Vector wall_conductance_;
+  Vector wall_conductance_, thickness_;
   Operator capacity_of_temperature_, outflow_of_temperature_;
   Vector conductance_to_end_;  ///< W/(m K), of each fracture point on a side with a temperature; else 0
   Vector end_temperature_;     ///< K, of each fracture point

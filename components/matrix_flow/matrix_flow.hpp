@@ -21,6 +21,7 @@
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/may_store_nothing.hpp"
+#include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/config/spec.hpp"
@@ -91,7 +92,8 @@ class MatrixFlow : public Component,
                    public BuoyantMatrix,
                    public KeepsTotals,
                    public LivesInPart,
-                   public MayStoreNothing {
+                   public MayStoreNothing,
+                   public NotesStart {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
@@ -127,6 +129,7 @@ class MatrixFlow : public Component,
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
+  void note_start(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
   std::map<std::string, long> counts() const override {
     return {{"flux discretizations", discretizations_},

@@ -7,6 +7,7 @@
 #include "components/capabilities/overshoots.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
+#include "components/matrix_flow/start_balance.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -45,6 +46,14 @@ void MatrixFlow::note_input(Notes& notes) const {
   for (const auto& [key, instead] : options_.without_effect)
     notes.add(name() + "." + key + " without effect",
               origin_.text() + ": '" + key + "' of '" + name() + "' has no effect (" + instead + ") remove it");
+}
+
+void MatrixFlow::note_start(Notes& notes) const {
+  Vector density = Vector::Constant(mesh_.cell_count(), options_.fluid_density);
+  if (buoyancy_) density += buoyancy_->excess(FluidDensity::State::now);
+  note_start_imbalance(
+      notes, {mesh_, options_, inside_, mobility_, std::move(density), buoyancy_ != nullptr, evaluated_for_.start},
+      name());
 }
 
 void MatrixFlow::note_step(Notes& notes, const StepTime& step) const {

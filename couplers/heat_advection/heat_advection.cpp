@@ -1,4 +1,6 @@
 // heat_advection: flowing fluid carries heat through the matrix, along fractures and through their walls.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,10 +20,13 @@
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/plane/planar.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
 namespace {
+
+constexpr double rounding_of_aperture = 1e-2;  // of the larger one of two that are to be the same
 
 /// Adds to the heat balance of each cell what streams of fluid carry (Stream). With the fluid m that has entered the
 /// cell since the start (m^2), by the same streams, it stores c (m T − m_old T_old), and what enters is c dt q T of
@@ -50,6 +55,7 @@ class HeatAdvection : public Coupler, public KeepsState, public FollowsMesh, pub
     find_wells(context);
     for (const CarriedHeat* place : {&rock_, &fractures_})
       if (place->temperature) at_start_.push_back(place->temperature->now());
+    if (fractures_.temperature) compare_apertures(context);
     flow_.emplace(context,
                   CarryingFlow{rock_.temperature ? matrix_ : nullptr,
                                flow_in_rock_ ? &flow_in_rock_->pressure() : nullptr, walls_, fracture_, wells_.wells});
@@ -176,6 +182,7 @@ class HeatAdvection : public Coupler, public KeepsState, public FollowsMesh, pub
     std::vector<const Data*> given;
     for (const auto& [place, injected] : options_.injected) given.push_back(&injected.temperature);
     for (const Vector& at_start : at_start_) note_cold(notes, name(), at_start, given);
+    if (!other_aperture_.empty()) notes.add(name() + ": another aperture for heat", other_aperture_);
   }
   void note_step(Notes& notes, const StepTime&) const override { wells_.note(name(), notes); }
 
@@ -209,6 +216,26 @@ class HeatAdvection : public Coupler, public KeepsState, public FollowsMesh, pub
     sources.rock_pressure = wells_.rock.pressure;
     sources.fracture_pressure = wells_.fractures.pressure;
     return sources;
+  }
+
+  /// Looks for fracture cells whose heat is stored in another thickness than their fluid.
+  void compare_apertures(const CouplerContext& context) {
+    const FractureFluid* fluid = context.find<FractureFluid>();
+    const Vector* of_heat = fracture_heat_->thickness();
+    if (!fluid || !of_heat) return;
+    const Vector& of_fluid = fluid->initial_aperture();
+    double worst = rounding_of_aperture;
+    for (int i = 0; i < of_heat->size(); ++i) {
+      const double larger = std::max(of_fluid[i], (*of_heat)[i]), difference = std::abs(of_fluid[i] - (*of_heat)[i]);
+      if (of_fluid[i] <= 0 || difference <= worst * larger) continue;
+      worst = difference / larger;
+      const FractureCell& cell = mesh_.fracture_cells[i];
+      other_aperture_ = fmt::format(
+          "the fracture '{}' is {:.4g} m wide for its heat and {:.4g} m for its fluid at {} (so it stores the heat of "
+          "another amount of fluid than flows in it) give 'aperture' of '{}' the initial_aperture of the flow",
+          mesh_.fractures[cell.fracture].name, (*of_heat)[i], of_fluid[i], to_text(cell.center),
+          fracture_heat_->temperature().spec().owner);
+    }
   }
 
   void find_wells(const CouplerContext& context) {
@@ -358,6 +385,7 @@ class HeatAdvection : public Coupler, public KeepsState, public FollowsMesh, pub
   MatrixTemperature* rock_heat_ = nullptr;
   FractureTemperature* fracture_heat_ = nullptr;
   HeatOfWells wells_;
+  std::string other_aperture_;    ///< a note, or ""
   std::vector<Vector> at_start_;  ///< temperatures of the cells that fluid reaches, K
   CarriedHeat rock_, fractures_;
   std::optional<HeldFlow> flow_;

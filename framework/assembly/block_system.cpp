@@ -183,6 +183,12 @@ std::vector<char> BlockSystem::known_rows(const Assembly& assembly) const {
   return known;
 }
 
+int BlockSystem::unknown_with_sum(const Assembly& assembly, const Balances::Quantity& quantity) const {
+  const int row = row_to_replace(assembly, quantity, owned_, first_);
+  SPREKK_ASSERT(is_index(row, size_), quantity.name, row, size_);
+  return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), row) - first_.begin()) - 1;
+}
+
 std::string BlockSystem::describe_floating(const Assembly& assembly) const {
   const std::vector<FloatingBalances> all = floating_balances(assembly, owned_, first_);
   if (all.empty()) return "";

@@ -33,6 +33,8 @@ class BlockSystem {
   std::vector<Balances::Quantity> sums_of(const Assembly& assembly) const {
     return sums_.sums_of(assembly, owned_, first_);
   }
+  /// The unknown in one of whose rows the sum of a quantity stands. Collective.
+  int unknown_with_sum(const Assembly& assembly, const Balances::Quantity& quantity) const;
   /// "" or, where nothing holds some balances of an assembly, a sentence that says which. Collective.
   std::string describe_floating(const Assembly& assembly) const;
   void use_sums(bool wanted) { sums_.are_used = wanted; }

@@ -10,7 +10,9 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
+#include <regex>
 
+#include "framework/config/number.hpp"
 #include "framework/config/unit.hpp"
 
 namespace sprekk {
@@ -89,6 +91,7 @@ class Expression {
     parser_.DefineVar("t", &t_);
     if (text.size() > longest_expression) fail("it is longer than 4000 characters");
     if (has_assignment(text)) fail("'=' assigns", "compare with '=='");
+    refuse_degrees();
     try {
       parser_.SetExpr(text);
       parser_.Eval();
@@ -126,8 +129,14 @@ class Expression {
   double at(const Place& place) {
     const double value = unchecked(place);
     if (std::isfinite(value)) return value;
-    throw DataError(
-        fmt::format("{}: the expression {} is {} at {}", where_.text(), quoted(text_), value, place_text(place)));
+    throw DataError(fmt::format("{}: the expression {} has no finite value at {} ({})", where_.text(), quoted(text_),
+                                place_text(place), why_not_finite(value)));
+  }
+
+  /// Why a value is none.
+  static std::string why_not_finite(double value) {
+    return std::isnan(value) ? "it is no number: 0/0, or a root, a logarithm or a power that does not exist"
+                             : "it is infinite: a division by zero, or a number beyond 1e308";
   }
 
  private:
@@ -150,16 +159,63 @@ class Expression {
     throw InputError(where_, "malformed expression " + quoted(text_), why, suggestion);
   }
 
+  /// Refuses the sine of a plain number that is more than a full turn: degrees, as a rule.
+  void refuse_degrees() const {
+    static const std::regex pattern(R"(\b(sin|cos|tan)\s*\(\s*(-?[0-9]+\.?[0-9]*)\s*\))");
+    constexpr std::size_t longest_of_regex = 500;  // characters: std::regex needs a part of the stack for each
+    if (text_.size() > longest_of_regex) return;
+    for (std::sregex_iterator match(text_.begin(), text_.end(), pattern), end; match != end; ++match)
+      if (std::abs(std::stod(match->str(2))) > 2 * std::numbers::pi)
+        throw InputError(where_, fmt::format("{} has '{}'", quoted(text_), match->str()),
+                         "a plain number is an angle in radians, and this one is more than a full turn",
+                         fmt::format("write '{}({} deg)' for degrees", match->str(1), match->str(2)));
+  }
+
   [[noreturn]] void refuse(const mu::ParserError& error) const {
     if (error.GetCode() == mu::ecUNASSIGNABLE_TOKEN) {
       std::string name = error.GetToken();
       name.erase(
           std::find_if_not(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; }),
           name.end());
+      if (parser_.GetFunDef().count(name) > 0)
+        fail(fmt::format("'{}' is a function, and no parenthesis follows it", name), "write '" + name + "(…)'");
       if (!name.empty())
         throw unknown_name(where_, "name in the expression " + quoted(text_) + ":", name, known_names(parser_));
     }
-    fail(error.GetMsg());
+    const auto opened = std::ranges::count(text_, '('), closed = std::ranges::count(text_, ')');
+    if (opened != closed)
+      fail(fmt::format("it has {} '(' and {} ')'", opened, closed), opened > closed ? "add a ')'" : "remove a ')'");
+    const std::string token = quoted(trimmed(error.GetToken()));
+    const auto at = static_cast<std::size_t>(std::max<long>(0, static_cast<long>(error.GetPos())));
+    const std::string before = trimmed(text_.substr(0, std::min(at, text_.size())));
+    const std::string behind = before.empty() ? "at the beginning" : "behind " + quoted(before);
+    switch (error.GetCode()) {
+      case mu::ecUNEXPECTED_OPERATOR:
+      case mu::ecUNEXPECTED_PARENS:
+        fail(fmt::format("{} stands {}, where a value or an operator belongs", token, behind));
+      case mu::ecUNEXPECTED_VAL:
+      case mu::ecUNEXPECTED_VAR:
+      case mu::ecUNEXPECTED_FUN:
+        fail(fmt::format("{} stands {} without an operator between them", token, behind), "write '*' for a product");
+      case mu::ecUNEXPECTED_EOF:
+        fail("it ends where a value belongs");
+      case mu::ecUNEXPECTED_ARG_SEP:
+      case mu::ecUNEXPECTED_ARG:
+        fail(fmt::format("a ',' stands {}, where no function takes several values", behind),
+             "write decimals with a point");
+      case mu::ecUNASSIGNABLE_TOKEN:
+        fail(fmt::format("{} stands {}, which means nothing", token, behind));
+      case mu::ecMISSING_ELSE_CLAUSE:
+      case mu::ecMISPLACED_COLON:
+        fail("its '?' and ':' do not belong together", "write 'condition ? value : other value'");
+      case mu::ecTOO_MANY_PARAMS:
+      case mu::ecTOO_FEW_PARAMS:
+        fail(fmt::format("{} takes {} values than it has", token,
+                         error.GetCode() == mu::ecTOO_MANY_PARAMS ? "fewer" : "more"),
+             trimmed(error.GetToken()) == "if" ? "write 'if(condition, value, other value)'" : "");
+      default:
+        fail(error.GetMsg());
+    }
   }
 
   std::string text_;
@@ -184,7 +240,8 @@ Data parse_expression(const std::string& text, double scale, const Origin& where
                 expression->uses_space());
   }
   const double value = expression->unchecked({});
-  if (!std::isfinite(value)) throw InputError(where, quoted(text) + " is not finite", fmt::format("it is {}", value));
+  if (!std::isfinite(value))
+    throw InputError(where, quoted(text) + " has no finite value", Expression::why_not_finite(value));
   return value;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <numeric>
@@ -11,6 +12,7 @@
 #include "framework/config/number.hpp"
 #include "framework/config/quantity_scale.hpp"
 #include "framework/config/text_file.hpp"
+#include "framework/config/unit.hpp"
 
 namespace sprekk {
 namespace {
@@ -76,6 +78,7 @@ class TableReader {
       if (!named && request_.of.size() > 1)
         throw unknown_name(request_.where, "variable of the table " + quoted(request_.file) + ":", variable, names());
       const std::size_t column = named.value_or(0);
+      if (!named) require_coordinates_first(variable);
       const double scale = column_scale(column, variable == "t" ? "s" : "m");
       std::vector<double>& coordinates = coordinates_.emplace_back();
       for (const CsvRow& row : rows_) {
@@ -87,6 +90,28 @@ class TableReader {
       }
       variable_columns_.push_back(column);
     }
+  }
+
+  static bool has_unit(const CsvHeading& heading) { return !heading.unit.empty() && is_unit(heading.unit); }
+
+  /// Whether a column has the unit of a variable, or is called as the time is.
+  bool may_be(const CsvHeading& heading, const std::string& variable) const {
+    if (has_unit(heading)) return have_one_dimension(heading.unit, variable == "t" ? "s" : "m");
+    std::string name = heading.name;
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    return name == variable || (variable == "t" && name.find("time") != std::string::npos);
+  }
+
+  /// Refuses headings of which the first is no variable's: without the name, the first column is taken for it.
+  void require_coordinates_first(const std::string& variable) const {
+    if (headings_.empty() || may_be(headings_.front(), variable)) return;
+    const bool is_elsewhere =
+        std::ranges::any_of(headings_, [&](const CsvHeading& heading) { return may_be(heading, variable); });
+    const std::string& first = headings_.front().name;
+    if (!is_elsewhere && !has_unit(headings_.front()) && first != "t" && first != "x" && first != "y") return;
+    throw InputError(request_.where, fmt::format("the table {} has no column '{}'", quoted(request_.file), variable),
+                     "it has " + listed(names()) + ", and the first one is taken where none has this name",
+                     fmt::format("call the column of {} '{}'", variable == "t" ? "the time" : variable, variable));
   }
 
   static std::vector<double> sorted(std::vector<double> coordinates) {

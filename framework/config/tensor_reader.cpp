@@ -1,6 +1,7 @@
 // Symmetric tensors: isotropic, by components, or by principal values and their direction.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "framework/config/data_reader.hpp"
@@ -119,6 +120,9 @@ TensorData read_tensor(const Node& node, const DataRequest& request) {
   if (has(node, "xx") || has(node, "yy") || has(node, "xy")) return read_components(node, request);
   if (node.is_map() && !node.entries.empty() && form_of(node).empty())
     throw unknown_form(node, request, {"xx", "along"});
+  if (node.is_list() && std::ranges::none_of(node.items, [](const Node& item) { return has(item, "value"); }))
+    throw InputError(node.origin, quoted(request.name) + " is a list", "a tensor is no list of its entries",
+                     "write {xx: …, yy: …, xy: …}, {along: …, across: …, angle: …}, or one value for all directions");
   const Data isotropic = read_data(node, request);
   return {isotropic, isotropic, 0};
 }

@@ -13,6 +13,7 @@
 #include "framework/mesh/network_shape.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/run/unchanging_data.hpp"
 
 namespace sprekk {
 
@@ -79,6 +80,34 @@ void note_empty_regions(const Mesh& mesh, Notes& notes) {
                   listed(empty)));
 }
 
+/// Notes regions of which the later one covers a part of the earlier one, and has other cells as well. A region that
+/// lies in another one is meant.
+void note_overlapping_regions(const Geometry& geometry, const Mesh& mesh, Notes& notes) {
+  const std::vector<RegionGeometry>& regions = geometry.regions;
+  if (!geometry.file.empty()) return;
+  const auto number_of = [&](const std::string& name) {
+    return static_cast<int>(std::ranges::find(mesh.region_names, name) - mesh.region_names.begin());
+  };
+  for (std::size_t later = 1; later < regions.size(); ++later)
+    for (std::size_t earlier = 0; earlier < later; ++earlier) {
+      const int own = number_of(regions[later].name), other = number_of(regions[earlier].name);
+      int inside = 0, outside = 0, left = 0;
+      Point at = Point::Zero();
+      for (int c = 0; c < mesh.cell_count(); ++c) {
+        left += mesh.cell_region[c] == other ? 1 : 0;
+        if (mesh.cell_region[c] != own) continue;
+        const bool is_in_both = is_inside(mesh.cell_center[c], regions[earlier].polygon);
+        if (is_in_both && inside == 0) at = mesh.cell_center[c];
+        ++(is_in_both ? inside : outside);
+      }
+      if (inside == 0 || outside == 0 || left == 0) continue;
+      notes.add("regions that overlap: " + regions[earlier].name + " and " + regions[later].name,
+                fmt::format("regions '{}' and '{}' overlap in {} cells, as at {} (there the values of '{}' hold, which "
+                            "is given later) change their order for the other values, or let them end at one another",
+                            regions[earlier].name, regions[later].name, inside, to_text(at), regions[later].name));
+    }
+}
+
 /// Recommends two stages to a run with one, where all parts allow them.
 void note_stages(const Model& model, Notes& notes) {
   if (model.scene().time.scheme != TimeScheme::backward_euler) return;
@@ -92,6 +121,19 @@ void note_stages(const Model& model, Notes& notes) {
   }
 }
 
+RunExtent extent_of(const Model& model) {
+  const TimeOptions& time = model.scene().time;
+  RunExtent extent{time.start, std::min(time.step, time.end - time.start), time.end};
+  const std::vector<Point>& nodes = model.mesh().nodes;
+  if (nodes.empty()) return extent;
+  extent.lowest = extent.highest = nodes.front();
+  for (const Point& node : nodes) {
+    extent.lowest = extent.lowest.cwiseMin(node);
+    extent.highest = extent.highest.cwiseMax(node);
+  }
+  return extent;
+}
+
 }  // namespace
 
 Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns) {
@@ -99,7 +141,9 @@ Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns)
   note_angles(model.mesh(), notes);
   note_pockets(model.mesh(), notes);
   note_empty_regions(model.mesh(), notes);
+  note_overlapping_regions(model.scene().geometry, model.mesh(), notes);
   note_stages(model, notes);
+  note_unchanging_data(notes, model.scene().whole, extent_of(model));
   if (blas_in_use().is_reference)
     notes.add("reference BLAS",
               "the reference BLAS is in use, which makes sparse factorizations several times slower: "

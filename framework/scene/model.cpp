@@ -411,12 +411,15 @@ Notes Model::input_notes() const {
   note_unusual_values(properties_of(scene_, {mesh_, fields_, components_}), notes);
   for (const Part* part : parts_) part->note_input(notes);
   note_gaps(*schedule_, fields_, scene_.time, notes);
-  std::vector<Component*> components;
-  for (const auto& component : components_) components.push_back(component.get());
   for (const CouplerType& type : Registry::instance().couplers()) {
-    const bool is_there = std::any_of(scene_.couplers.begin(), scene_.couplers.end(),
-                                      [&](const Scene::CouplerEntry& entry) { return entry.type == type.type; });
-    if (type.note_absence && !is_there) type.note_absence(components, notes);
+    if (!type.note_absence) continue;
+    std::vector<Component*> not_coupled;
+    for (const auto& component : components_)
+      if (std::ranges::none_of(scene_.couplers, [&](const Scene::CouplerEntry& entry) {
+            return entry.type == type.type && std::ranges::count(entry.between, component->name()) > 0;
+          }))
+        not_coupled.push_back(component.get());
+    type.note_absence(not_coupled, notes);
   }
   return notes;
 }

@@ -119,8 +119,16 @@ void check_materials(const Node* materials) {
     throw InputError(materials->origin, "'materials' is not a map", "it holds properties by name");
   const std::vector<std::string> names = material_names();
   std::vector<std::string> problems;
+  const auto is_property = [&](const std::string& key) { return std::ranges::count(names, key) > 0; };
   for (const Node::Entry& entry : materials->entries)
-    if (std::find(names.begin(), names.end(), entry.key) == names.end())
+    if (const auto nested = std::ranges::find_if(entry.value.entries, is_property, &Node::Entry::key);
+        !is_property(entry.key) && nested != entry.value.entries.end())
+      problems.emplace_back(InputError(entry.origin, quoted(entry.key) + " is no property of a material",
+                                       "'materials' has a value of each property, and values by region inside of it",
+                                       "write '" + nested->key + ": {regions: {" + entry.key + ": " +
+                                           nested->value.text() + ", default: …}}'")
+                                .what());
+    else if (!is_property(entry.key))
       problems.emplace_back(unknown_key(entry.origin, "property of a material", entry.key, names).what());
   if (!problems.empty()) throw InputError(problems);
 }

@@ -36,6 +36,22 @@ Settings with_tips(const std::string& between) {
           "schedule=[{solve: [pore, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"};
 }
 
+/// Heat in rock and fracture, which fluid carries between these components.
+Settings with_heat(const std::string& between, const std::string& aperture) {
+  return {"components.heat={type: matrix_heat/tpfa, conductivity: 2 W/(m*K), heat_capacity: 2e6 J/(m^3*K)}",
+          "components.water={type: fracture_heat/tpfa, conductivity: 0.6 W/(m*K), heat_capacity: 4.2e6 J/(m^3*K), "
+          "aperture: " +
+              aperture + "}",
+          "components.heat.initial_temperature=300 K",
+          "components.water.initial_temperature=300 K",
+          "couplers=[" + all_but_aperture +
+              ", {type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, "
+              "conduit]}, {type: heat_exchange, between: [heat, water]}, {type: heat_advection, fluid_heat_capacity: "
+              "4.2e6 J/(m^3*K), between: " +
+              between + "}]",
+          "schedule=[{solve: [pore, rock, conduit, contact, heat, water]}]"};
+}
+
 std::string table(const char* name) {
   return (std::filesystem::path(SPREKK_SOURCE_DIR) / "tests/input/tables" / name).string();
 }
@@ -97,7 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
         Input{"flow.yaml",
               {"components.pore.boundary.right.pressure={table: " + table("pulse.csv") + ", of: t}", "time.step=60 s"},
               ""},
-        Input{"flow.yaml", {"components.pore.boundary.right.pressure={table: " + table("pulse.csv") + ", of: x}"}, ""},
+        Input{
+            "flow.yaml", {"components.pore.boundary.right.pressure={table: " + table("along_x.csv") + ", of: x}"}, ""},
         Input{"fractured.yaml",
               {"geometry.regions={a: {polygon: [[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]]}, b: {polygon: [[0, 0], [0.3, 0], "
                "[0.3, 0.3], [0, 0.3]]}}"},
@@ -126,8 +143,61 @@ INSTANTIATE_TEST_SUITE_P(
         Input{"flow.yaml",
               {"components.pore.gravity=[0, -9.81 m/s^2]", "components.pore.fluid_density=0 kg/m^3"},
               "gravity has no effect on the flow of 'pore'"},
-        Input{"flow.yaml", {"components.pore.gravity=[0, -9.81 m/s^2]"}, ""},
+        Input{"flow.yaml",
+              {"components.pore.gravity=[0, -9.81 m/s^2]"},
+              "the fluid of 'pore' is out of balance at the start by 9.81e+03 Pa/m"},
+        Input{"flow.yaml",
+              {"components.pore.gravity=[0, -9.81 m/s^2]"},
+              "or give one, such as 'initial_pressure: \"(9810*(1 - y)) Pa\"'"},
+        Input{"flow.yaml",
+              {"components.pore.gravity=[0, -9.81 m/s^2]", "components.pore.initial_pressure=(9810*(y - 1)) Pa"},
+              "let gravity or the pressure act the other way"},
+        Input{"flow.yaml",
+              {"components.pore.gravity=[9.81 m/s^2, 0]", "components.pore.initial_pressure=(9810*(1 - y)) Pa"},
+              "along gravity its initial_pressure grows by 0 Pa/m"},
+        Input{"flow.yaml",
+              {"components.pore.gravity=[0, -9.81 m/s^2]", "components.pore.initial_pressure=(9810*(1 - y)) Pa"},
+              ""},
+        Input{"flow.yaml", {"components.pore.gravity=[0, -9.81 m/s^2]", "start={settle: [pore]}"}, ""},
+        Input{"flow.yaml",
+              {"components.pore.gravity=[0, -9.81 m/s^2]", "components.pore.initial_pressure=(5000*(1 - y)) Pa",
+               "components.pore.boundary.left=", "components.pore.boundary.right=",
+               "components.pore.boundary.top={pressure: 0 Pa}", "components.pore.boundary.bottom={pressure: 5 kPa}"},
+              ""},  // steady seepage, as it is given
+        Input{"fractured.yaml", {"components.pore.initial_pressure=1 MPa"}, "begins with 0 Pa in the fracture 'crack'"},
+        Input{"fractured.yaml",
+              {"components.pore.initial_pressure=1 MPa", "components.conduit.initial_pressure=1 MPa"},
+              ""},
+        Input{"fractured.yaml",
+              {"geometry.fractures.crack.points=[[0.5 m, 0.2 m], [0.5 m, 0.7 m]]",
+               "components.conduit.gravity=[0, -9.81 m/s^2]"},
+              "the fluid of 'conduit' is out of balance at the start by 9.81e+03 Pa/m in the fracture 'crack'"},
+        Input{"fractured.yaml", {"components.conduit.gravity=[0, -9.81 m/s^2]"}, ""},  // the fracture lies level
         Input{"flow.yaml", {"components.pore.porosity=0.1"}, "'porosity' of 'pore' has no effect"},
+        Input{"flow.yaml",
+              {"components.pore.source=(if(t < 6, 0, 1e-9)) 1/s", "time.step=10 min"},
+              "'t < 6' of 'source' is the same throughout the run (it compares with 6 s, and the first step is 600 s "
+              "long)"},
+        Input{
+            "flow.yaml",
+            {"components.pore.source=(if(t >= 7200, 0, 1e-9)) 1/s"},
+            "'t >= 7200' of 'source' is the same throughout the run (it compares with 7200 s, and the run goes from 0 "
+            "to 3600 s)"},
+        Input{"flow.yaml", {"components.pore.source=(if(t < 6 h, 0, 1e-9)) 1/s"}, ""},
+        Input{"flow.yaml", {"components.pore.source=(if(t < 2000, 0, 1e-9)) 1/s"}, ""},
+        Input{"flow.yaml",
+              {"components.pore.permeability=(if(x < 500, 1, 2)*1e-14) m^2"},
+              "and the mesh goes from 0 to 1 m"},
+        Input{"flow.yaml", {"components.pore.permeability=(if(x < 0.5, 1, 2)*1e-14) m^2"}, ""},
+        Input{"flow.yaml",
+              {"components.pore.source=[{value: 1e-9 1/s, from: 2 h, to: 3 h}]"},
+              "a window of 'source' has no effect (it begins at 7200 s, and the run ends at 3600 s)"},
+        Input{"flow.yaml",
+              {"components.pore.source=[{value: 1e-9 1/s, to: 10 min}, {value: 1e-9 1/s, from: 5 min}]"},
+              "two windows of 'source' overlap from 300 to 600 s"},
+        Input{"flow.yaml",
+              {"components.pore.source=[{value: 1e-9 1/s, to: 10 min}, {value: 1e-9 1/s, from: 10 min}]"},
+              ""},
         Input{"flow.yaml", {"time.step=2 h"}, "'step' is 7200 s (the run is 3600 s long"},
         Input{"flow.yaml", {"time.step=1 h"}, ""}, Input{"flow.yaml", {"output.every=2 h"}, "'every' has no effect"},
         Input{"flow.yaml", {"output.every=1 h"}, ""},
@@ -184,6 +254,15 @@ INSTANTIATE_TEST_SUITE_P(
               {"couplers=[" + all_but_aperture +
                ", {type: aperture, between: [contact, conduit]}, {type: wall_traction, between: [rock, contact]}]"},
               "the pressure of conduit does not push the walls of fractures apart"},
+        Input{
+            "fractured.yaml",
+            {"geometry.regions={a: {polygon: [[0, 0], [0.2, 0], [0.2, 1], [0, 1]]}, b: {polygon: [[0.1, 0], [0.25, 0], "
+             "[0.25, 0.3], [0.1, 0.3]]}}"},
+            "regions 'a' and 'b' overlap in"},
+        Input{"fractured.yaml", with_heat("[pore, heat]", "0.1 mm"), "the fluid of conduit carries no heat of water"},
+        Input{"fractured.yaml", with_heat("[pore, conduit, heat, water]", "0.3 mm"),
+              "the fracture 'crack' is 0.0003 m wide for its heat and 0.0001 m for its fluid"},
+        Input{"fractured.yaml", with_heat("[pore, conduit, heat, water]", "0.1 mm"), ""},
         Input{"fractured.yaml", with_tips("[rock, tips]"), "walls that grow on the fine level carry no fluid pressure"},
         Input{"fractured.yaml", with_tips("[rock, tips, conduit]"), ""},
         Input{"fractured.yaml",

@@ -22,6 +22,7 @@
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/may_store_nothing.hpp"
+#include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/scene/component.hpp"
@@ -50,7 +51,8 @@ class FractureFlow : public Component,
                      public HeedsStages,
                      public KeepsTotals,
                      public LivesInPart,
-                     public MayStoreNothing {
+                     public MayStoreNothing,
+                     public NotesStart {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
@@ -80,6 +82,7 @@ class FractureFlow : public Component,
   void report(std::vector<Quantity>& quantities) const override;
   std::uint64_t discrete_state() const override;
   void note_input(Notes& notes) const override;
+  void note_start(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
 
   Field& pressure() override { return pressure_; }
@@ -157,6 +160,8 @@ class FractureFlow : public Component,
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   /// Notes fractures that end on a side where the rock is open, if the scene says nothing about their ends.
   void note_ends(Notes& notes) const;
+  /// Notes fluid that begins with another pressure than that of the rock behind its walls.
+  void note_start_at_walls(Notes& notes) const;
   /// Notes a fracture that passes the tight walls of another by a crossing whose fill is not said.
   void note_crossings(Notes& notes) const;
   /// The normal permeability of each wall, where what fills crossings depends on it; else empty.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
@@ -14,6 +15,9 @@ namespace {
 constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest borehole has above it
 /// What passes a wall, of what passes a crossing beside it, below which a note asks for what fills the crossing.
 constexpr double much_tighter = 0.01;
+constexpr double small_part_of_weight = 1e-2;  // of the fluid
+constexpr double part_that_may_vary = 1e-1;    // of its weight, where the density follows temperature and pressure
+constexpr double other_pressure = 1e-2;        // of the larger pressure at a wall
 
 }  // namespace
 
@@ -63,6 +67,63 @@ void FractureFlow::note_input(Notes& notes) const {
     note("normal_permeability_value", origin_,
          "'normal_permeability_value' of '" + name() +
              "' has no effect (it follows the cubic law) write 'normal_permeability: constant', or remove it");
+}
+
+void FractureFlow::note_start(Notes& notes) const {
+  note_start_at_walls(notes);
+  if (options_.gravity.is_zero()) return;
+  double worst = 0;
+  std::string text;
+  const double small = density_ ? part_that_may_vary : small_part_of_weight;
+  const Vector& pressure = pressure_.now();
+  for (const Link& link : links_) {
+    if (link.second == none) continue;
+    const Point &from = mesh_.fracture_cells[link.second].center, &to = mesh_.fracture_cells[link.first].center;
+    const double length = (to - from).norm(), rise = (pressure[link.first] - pressure[link.second]) / length;
+    const double wanted = link.gravity / length, misfit = std::abs(rise - wanted);
+    if (misfit <= small * options_.fluid_density * options_.gravity.at({from, 0, 0}).norm() || misfit <= worst)
+      continue;
+    worst = misfit;
+    const double sign = wanted < 0 ? -1 : 1;
+    text = fmt::format(
+        "the fluid of '{}' is out of balance at the start by {:.3g} Pa/m in the fracture '{}' at {}: along it, down, "
+        "its initial_pressure grows by {:.4g} Pa/m, and its weight asks for {:.4g} Pa/m (it flows at once, although "
+        "nothing is injected) let 'start: settle' find the equilibrium, or give a pressure that grows with depth, as "
+        "in the rock",
+        name(), misfit, mesh_.fractures[mesh_.fracture_cells[link.first].fracture].name, to_text(to), sign * rise + 0.0,
+        sign * wanted);
+  }
+  if (worst > 0) notes.add(name() + " out of balance at the start", text, worst);
+}
+
+void FractureFlow::note_start_at_walls(Notes& notes) const {
+  if (!rock_fluid_) return;
+  const Vector& in_rock = rock_fluid_->initial_pressure();
+  const NormalPermeability walls = normal_permeability();
+  double worst = 0;
+  std::string text;
+  for (int wall = 0; wall < mesh_.wall_count(); ++wall) {
+    const int cell = wall / 2, behind = mesh_.face_cells[mesh_.wall_face(wall)][0];
+    if (!is_in_fracture_cell(cell) || !rock_fluid_->is_in_cell(behind) || is_prescribed_[cell] ||
+        walls.value[wall] == 0)
+      continue;
+    const FractureCell& at = mesh_.fracture_cells[cell];
+    const double own = pressure_.now()[cell], rock = in_rock[behind];
+    const double weight = weight_between(mesh_.cell_center[behind], at.center), misfit = std::abs(own - rock - weight);
+    // Where the rock's pressure varies, that of its cell is another than that at the wall.
+    const double around = std::abs(in_rock[mesh_.face_cells[mesh_.wall_face(wall ^ 1)][0]] - rock);
+    if (misfit <= other_pressure * std::max(std::abs(own), std::abs(rock)) + std::abs(weight) + around ||
+        misfit <= worst)
+      continue;
+    worst = misfit;
+    text = fmt::format(
+        "the fluid of '{}' begins with {:.4g} Pa in the fracture '{}' at {}, and that of the rock beside it with "
+        "{:.4g} "
+        "Pa (it flows through the walls at once, although nothing is injected) give '{}' the initial_pressure of the "
+        "rock, unless that is meant",
+        name(), own, mesh_.fractures[at.fracture].name, to_text(at.center), rock, name());
+  }
+  if (worst > 0) notes.add(name() + " and the rock out of balance at the start", text, worst);
 }
 
 void FractureFlow::note_ends(Notes& notes) const {

@@ -88,14 +88,15 @@ TEST(ParseData, can_be_evaluated_by_several_threads) {
 
 TEST(ParseData, says_where_an_expression_has_no_value) {
   const Data data = parse_data("log(x)", "", here);
-  EXPECT_THAT(runtime_error_of([&] {
-                data.at({{-1, 2}, 0, 3});
+  EXPECT_THAT(
+      runtime_error_of([&] {
+        data.at({{-1, 2}, 0, 3});
+      }),
+      HasSubstr("s.yaml:3:4: the expression 'log(x)' has no finite value at x = -1, y = 2, t = 3 (it is no number"));
+  EXPECT_THAT(runtime_error_of([] {
+                parse_data("1/x", "", here).at({{0, 2}, 0, 3});
               }),
-              testing::MatchesRegex("s.yaml:3:4: the expression 'log\\(x\\)' is -?nan at x = -1, y = 2, t = 3"));
-  EXPECT_EQ(runtime_error_of([] {
-              parse_data("1/x", "", here).at({{0, 2}, 0, 3});
-            }),
-            "s.yaml:3:4: the expression '1/x' is inf at x = 0, y = 2, t = 3");
+              HasSubstr("the expression '1/x' has no finite value at x = 0, y = 2, t = 3 (it is infinite"));
 }
 
 struct Wrong {
@@ -120,8 +121,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"x)", "", "malformed expression"}, Wrong{"x +", "", "malformed expression"},
                     Wrong{"x = 3", "", "('=' assigns) compare with '=='"}, Wrong{"1*2, 3", "", "it has several values"},
                     Wrong{"if(x, 1)", "", "malformed expression"}, Wrong{"pow(x)", "", "malformed expression"},
-                    Wrong{"1/0", "", "'1/0' is not finite (it is inf)"}, Wrong{"sqrt(-1)", "", "is not finite"},
-                    Wrong{"nan", "", "is not finite"}, Wrong{"inf", "", "is not finite"},
+                    Wrong{"1/0", "", "'1/0' has no finite value (it is infinite"},
+                    Wrong{"sqrt(-1)", "", "has no finite value"}, Wrong{"nan", "", "is not finite"},
+                    Wrong{"inf", "", "is not finite"},
                     Wrong{"2 + x m", "m",
                           "(it is not clear what the unit 'm' belongs to) write '(2 + x) m' or multiply by the unit"},
                     Wrong{"(x + 2) s", "m", "'(x + 2) s' for 'p' has the dimension of time (needed is length, in m)"},

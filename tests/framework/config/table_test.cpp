@@ -129,7 +129,11 @@ TEST_F(ReadTable, may_depend_on_a_coordinate) {
   const Data p = read("of: y");
   EXPECT_DOUBLE_EQ(p.at({{3, -500}, 0, 0}), 2.5);
   EXPECT_TRUE(p.depends_on_space());
+  EXPECT_THAT(error("of: x"), HasSubstr("has no column 'x' (it has y, p, and the first one is taken where none has"));
+  write("place,p\n-1000,5\n0,0\n");
   EXPECT_DOUBLE_EQ(read("of: x").at({{-500, 9}, 0, 0}), 2.5);
+  write("p,time\n5,0\n0,1\n");
+  EXPECT_THAT(error(""), HasSubstr("call the column of the time 't'"));
 }
 
 TEST_F(ReadTable, of_several_variables_is_linear_along_each) {
