@@ -1,6 +1,7 @@
 #include "components/poromechanics/options.hpp"
 
 #include "components/capabilities/usual_ranges.hpp"
+#include "framework/config/unknown_key.hpp"
 
 #include <algorithm>
 
@@ -100,6 +101,10 @@ void refuse_two_frames(const Node& node) {
 }
 
 Spec side_spec(SideCondition& side) {
+  write_instead(
+      "boundary condition of mechanics", "pressure",
+      "write 'normal_stress: -1 MPa' for a load of 1 MPa (compression is negative); the pressure of a fluid is "
+      "a condition of its flow");
   Spec spec("boundary condition of mechanics",
             "Per direction a displacement or a total traction; a direction without either is free of traction.");
   spec.vector("displacement", side.displacement,
@@ -186,6 +191,11 @@ void Options::declare_stiffness(Spec& spec) {
 }
 
 Spec Options::spec(const std::string& type, const std::string& doc) {
+  for (const char* key : {"pressure", "initial_pressure"})
+    write_instead(
+        type, key,
+        "give it to a component of a flow (matrix_flow/mpfa), and couple that with the rock by 'biot'; a load "
+        "is the 'normal_stress' of a side");
   Spec spec(type, doc);
   spec.ignore("type");
   declare_stiffness(spec);

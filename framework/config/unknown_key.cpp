@@ -1,5 +1,6 @@
 #include "framework/config/unknown_key.hpp"
 
+#include <map>
 #include <utility>
 
 namespace sprekk {
@@ -10,7 +11,21 @@ PlaceOfKey& current() {
   return place;
 }
 
+std::map<std::pair<std::string, std::string>, std::string>& advice_on_keys() {
+  static std::map<std::pair<std::string, std::string>, std::string> advice;
+  return advice;
+}
+
 }  // namespace
+
+void write_instead(const std::string& spec, const std::string& key, const std::string& advice) {
+  advice_on_keys()[{spec, key}] = advice;
+}
+
+std::string instead_of_key(const std::string& spec, const std::string& key) {
+  const auto found = advice_on_keys().find({spec, key});
+  return found == advice_on_keys().end() ? "" : found->second;
+}
 
 KnownPlaces::KnownPlaces(PlaceOfKey place) : before_(std::exchange(current(), std::move(place))) {}
 

@@ -27,6 +27,13 @@ class KnownPlaces {
 /// What is known of the place of a key, or "".
 std::string place_of_key(const std::string& key);
 
+/// Lets messages say what to write instead of a key that users look for in the maps of a spec, and which these do not
+/// have.
+void write_instead(const std::string& spec, const std::string& key, const std::string& advice);
+
+/// What has been said by write_instead, or "".
+std::string instead_of_key(const std::string& spec, const std::string& key);
+
 /// As unknown_name, for a key: the message says also where the key belongs.
 InputError unknown_key(const Origin& where, const std::string& what, const std::string& key,
                        const std::vector<std::string>& allowed);

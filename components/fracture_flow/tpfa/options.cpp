@@ -1,6 +1,7 @@
 #include "components/fracture_flow/tpfa/options.hpp"
 
 #include "components/capabilities/usual_ranges.hpp"
+#include "framework/config/unknown_key.hpp"
 #include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::fracture_flow {
@@ -174,6 +175,9 @@ void Options::check(const Node& node) {
 }
 
 Spec Options::spec() {
+  write_instead("fracture_flow/tpfa", "wells",
+                "give an 'injection' here for a rate and 'prescribed' for a pressure, or add a component wells/limited "
+                "for wells with limits");
   Spec spec("fracture_flow/tpfa",
             "Flow in fractures (the paper's Eq. 8): two-point flux approximation along piecewise linear fractures.");
   spec.ignore("type");

@@ -75,7 +75,7 @@ TEST_F(MeshRecord, EveryMemberComesBackToTheBit) {
     const FractureCell &a = read.fracture_cells[i], &b = mesh.fracture_cells[i];
     EXPECT_EQ(a.fracture, b.fracture);
     EXPECT_EQ(a.faces, b.faces);
-    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.ridges, b.ridges);
     EXPECT_EQ(a.center, b.center);
     EXPECT_EQ(a.measure, b.measure);
     EXPECT_EQ(a.normal, b.normal);
