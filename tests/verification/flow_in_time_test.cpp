@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/assembly/counts_work.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {
@@ -30,7 +31,9 @@ double amplitude(const SceneRun& run) {
   return run.field("pore.pressure")[0] / std::cos(std::numbers::pi * run.mesh().cell_center[0][0] / length);
 }
 
-long count(SceneRun& run, const std::string& name) { return run.model().parts().front()->counts().at(name); }
+long count(SceneRun& run, const std::string& name) {
+  return parts_with<CountsWork>(run.model().parts()).front()->counts().at(name);
+}
 
 /// On equal cells a cosine is an eigenvector of the fluxes, with this eigenvalue in place of (pi/L)^2.
 double eigenvalue() {

@@ -6,6 +6,7 @@
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "framework/assembly/counts_work.hpp"
 #include "framework/scene/change_mesh.hpp"
 #include "tests/verification/scene_run.hpp"
 #include "tests/verification/values_of_paper.hpp"
@@ -37,7 +38,7 @@ const Capability& the(const Model& model) {
 }
 
 long count(const Model& model, const std::string& name) {
-  for (const Part* part : model.parts()) {
+  for (const auto* part : parts_with<CountsWork>(model.parts())) {
     const auto counts = part->counts();
     if (const auto found = counts.find(name); found != counts.end()) return found->second;
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "framework/assembly/follows_mesh.hpp"
 #include "framework/field/known_within_cells.hpp"
 #include "tests/verification/scene_run.hpp"
 
@@ -31,7 +32,7 @@ time: {{end: 1 s, step: 1 s}}
       run.run();
       const Mesh& mesh = run.mesh();
       KnownWithinCells known;
-      for (const Part* part : run.model().parts()) {
+      for (const auto* part : parts_with<FollowsMesh>(run.model().parts())) {
         part->add_known_within_cells(run.model().fields().at("conduit.pressure"), known);
         EXPECT_TRUE(known.at_faces.empty());
         part->add_known_within_cells(run.model().fields().at("pore.pressure"), known);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "framework/assembly/counts_work.hpp"
 #include "tests/verification/scene_run.hpp"
 
 namespace sprekk::testing {
@@ -27,7 +28,7 @@ Moduli moduli(double t) {
 }
 
 long count(SceneRun& run, const std::string& name) {
-  for (const Part* part : run.model().parts())
+  for (const auto* part : parts_with<CountsWork>(run.model().parts()))
     if (const auto counts = part->counts(); counts.count(name)) return counts.at(name);
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "framework/assembly/counts_work.hpp"
 #include "framework/config/yaml/load_scene.hpp"
 #include "tests/verification/scene_run.hpp"
 
@@ -13,7 +14,7 @@ constexpr double hour = 3600;
 
 long count(SceneRun& run, const std::string& name) {
   long sum = 0;
-  for (const Part* part : run.model().parts()) {
+  for (const auto* part : parts_with<CountsWork>(run.model().parts())) {
     const auto counts = part->counts();
     if (const auto found = counts.find(name); found != counts.end()) sum += found->second;
   }
