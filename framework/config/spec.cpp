@@ -115,10 +115,14 @@ void Spec::read_unknown_keys(const Node& node, std::vector<std::string>& problem
     if (!nearest.empty()) meant.push_back(nearest);
     const std::string belongs =
         inside.empty() ? place_of_key(entry.key) : quoted(entry.key) + " belongs in " + quoted(inside);
-    const std::string instead = instead_of_key(name_, entry.key);
+    std::string advice = instead_of_key(name_, entry.key);
+    if (advice.empty())
+      advice = name_advice(entry.key, names, belongs);
+    else if (!belongs.empty())
+      advice += "; " + belongs;
     problems.emplace_back(InputError(entry.origin, "unknown key " + quoted(entry.key) + " " + in_path(node.path),
                                      names.empty() ? name_ + " has no parameters" : name_ + " has: " + listed(names),
-                                     instead.empty() ? name_advice(entry.key, names, belongs) : instead)
+                                     advice)
                               .what());
   }
 }
