@@ -7,6 +7,7 @@
 
 #include "components/fine_fracture/quarter_point/elasticity/shapes.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/mesh.hpp"
 #include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::fine_fracture {
