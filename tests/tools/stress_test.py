@@ -107,12 +107,6 @@ class Checks(unittest.TestCase):
             above = [f for f in check_pressure.failures(P, [instant]) if "above" in f]
             self.assertEqual(len(above), count, (value, is_beside, above))
 
-    def test_strains_that_are_not_small_are_told_by_the_stress(self):
-        stresses = check_pressure.Stresses(P, [])
-        for part, is_large in ((0.05, False), (0.2, True)):
-            stresses.largest = part * check_pressure.physics.plane_strain_modulus(P)
-            self.assertEqual(check_pressure.has_large_strains(P, stresses), is_large)
-
     def test_a_ring_around_a_fracture_is_no_alternation(self):
         """The fracture has fallen below the rock, and with it the cells beside it; those that touch it with a corner are
         peaks. A checkerboard of a tenth on top of it is one."""

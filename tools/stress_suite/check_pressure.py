@@ -21,8 +21,6 @@ of all differences there are; the neighbour of a cell at a fracture is the fluid
 one or the other, side by side. Smooth pressures may have a ring of peaks, around a fracture whose load falls, but from
 there they fall to the fracture and away from it, with no trough in between. Two-point fluxes of a weight do not add up to
 nothing in triangles that are not orthogonal, and raise and lower pressures cell by cell: there peaks are not counted.
-Where strains are not small (the program notes them), a plate of one cell that bends has a squeezed and a stretched face, and its ends turn as
-hinges within a cell: there peaks are not counted either.
 Cells at walls that are deeper than what a step diffuses through take up fluid as their depths say, with every flow, monotone ones
 as well. This scatter is no alternation. Along fractures it is told by rising and falling with the depths throughout (or against them:
 what earlier steps have left); in the rock it stays when the differences have gone, and counts against those that there have been.
@@ -36,7 +34,6 @@ from . import buoyancy, check_wells, heat, limited_wells, physics, swaps
 
 MISSED = 0.05  # of the differences
 PEAK = 0.02
-LARGE_STRAIN = 0.1  # as the largest stress in the plane over E': the program notes 0.01 and more
 SHARE = 0.1
 # Along a fracture: what two cells differ by, of the whole change, and how often in a row. Cells of an unstructured mesh
 # lie at different distances from the fracture; short steps, whose layer of diffusion is thinner, show it as a scatter.
@@ -123,12 +120,6 @@ def has_uneven_weight(p):
     return "buoyancy" in p and p["discretization"] == "tpfa"
 
 
-def has_large_strains(p, stresses):
-    """Whether the rock has been strained beyond what a theory of small strains is about: a plate of some centimetres between a fracture and a
-    side that bends by its length."""
-    return stresses.largest > LARGE_STRAIN * physics.plane_strain_modulus(p)
-
-
 class Stresses:
     """What loads have done until now: the least and the largest mean in the plane, and the largest of all normal stresses."""
 
@@ -212,7 +203,7 @@ def failures(p, instants, history=None):
         if pressure.max() - pressure.min() > 1e-8 * size:
             been = max(been, pressure.max() - pressure.min()) if np.isfinite(conduction).all() else 0.0
             share = alternating(pressure, fracture, pairs, walls, been)
-            if share > SHARE and not has_uneven_weight(p) and not has_large_strains(p, stresses):
+            if share > SHARE and not has_uneven_weight(p):
                 found.append(f"alternating: {100 * share:.0f} % of the cells are peaks beside troughs at t = {instant.time:.6g} s")
         numbers = instant.fractures.cell_data["fracture"]
         for number in np.unique(numbers):
