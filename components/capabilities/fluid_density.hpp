@@ -29,7 +29,7 @@ class FluidDensity {
   };
   virtual std::vector<Derivative> derivatives() const = 0;
   /// The density of the fluid at a place with a prescribed pressure (Pa), kg/m^3; none where the density of the cell
-  /// beside it holds there, too. `place`: an outer face of the rock, or a fracture point.
+  /// beside it holds there, too. `place`: an outer face of the rock, or a ridge.
   virtual std::optional<double> at_boundary(int place, double pressure) const = 0;
 };
 

@@ -44,7 +44,7 @@ class FractureTemperature {
   virtual Field& temperature() = 0;
   /// The heat that each fracture cell stores per kelvin, J/(m K), as in MatrixTemperature.
   virtual const Vector& heat_capacity() const = 0;
-  /// The temperature that is prescribed in this step where a fracture ends on a side, at a fracture point, K.
+  /// The temperature that is prescribed in this step where a fracture ends on a side, at a ridge, K.
   virtual std::optional<double> end_temperature(int point) const = 0;
   /// By how much heat is conducted between the middle of the fracture and each of its walls, W/(m^2 K).
   virtual const Vector& wall_conductance() const = 0;

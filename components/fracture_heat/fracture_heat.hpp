@@ -70,8 +70,8 @@ class FractureHeat : public Component, public FractureTemperature, public KeepsT
   double largest_conductance_ = 0;  ///< of half a cell, W/(m K)
   Vector wall_conductance_, thickness_;
   Operator capacity_of_temperature_, outflow_of_temperature_;
-  Vector conductance_to_end_;  ///< W/(m K), of each fracture point on a side with a temperature; else 0
-  Vector end_temperature_;     ///< K, of each fracture point
+  Vector conductance_to_end_;  ///< W/(m K), of each ridge on a side with a temperature; else 0
+  Vector end_temperature_;     ///< K, of each ridge
 };
 
 }  // namespace sprekk::fracture_heat

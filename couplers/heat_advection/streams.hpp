@@ -14,7 +14,7 @@ namespace sprekk::couplers {
 struct Stream {
   /// own: the temperature of the cell itself, where no other one is known.
   enum class From { own, rock_cell, fracture_cell, given, well };
-  /// What the rate is a multiple of: the flux through a face, a wall, a fracture point, the rate of a well at a place,
+  /// What the rate is a multiple of: the flux through a face, a wall, a ridge, the rate of a well at a place,
   /// or nothing that is solved for.
   enum class Flux { face, wall, ridge, well, none };
   int cell;
@@ -31,7 +31,7 @@ struct Stream {
 /// The rates of fluid that hold in a step, without those through faces. What is missing is empty.
 struct FlowRates {
   Vector walls;   ///< from the fracture into the rock, m/s
-  Vector points;  ///< through each fracture point, from its first to its second cell, m^2/s
+  Vector points;  ///< through each ridge, from its first to its second cell, m^2/s
   Vector wells;   ///< out of the well at each place, m^2/s
   std::vector<FluidSource> sources_in_rock = {}, sources_in_fractures = {};
 };

@@ -24,7 +24,7 @@ struct MeshChange {
   std::vector<int> face;
   std::vector<int> fracture_cell;  ///< per new fracture cell: the same old cell; none where the fracture has grown
                                    ///< or cells have been replaced
-  std::vector<int> ridge;          ///< per new fracture point: the same old point
+  std::vector<int> ridge;          ///< per new ridge: the same old ridge
   /// New cells x old cells: the area of their intersection, m^2; for kept cells their area on the one entry. Rows sum
   /// to the new cells' areas, columns to the old cells' (to rounding). Eq. 17 of the paper divides the rows by their
   /// sums.
@@ -42,7 +42,7 @@ struct MeshChange {
 /// Per new fracture cell: the part of its length that replaced cells covered: 1 for kept cells, 0 where rock parts.
 Vector covered_parts(const MeshChange& change, const Mesh& after);
 
-/// The change that keeps every cell, face, fracture cell and fracture point; its overlap is empty.
+/// The change that keeps every cell, face, fracture cell and ridge; its overlap is empty.
 MeshChange no_change(const Mesh& mesh);
 
 }  // namespace sprekk

@@ -149,7 +149,7 @@ class Check {
     return is_near;
   }
 
-  /// Moves an end onto a fracture point of other fractures if it is nearer than joint_snap, and marks these fractures
+  /// Moves an end onto a ridge of other fractures if it is nearer than joint_snap, and marks these fractures
   /// as joined.
   void join(Point& end) {
     const int own = extensions_[index_].fracture;

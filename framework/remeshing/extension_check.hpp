@@ -12,7 +12,7 @@ namespace sprekk {
 inline constexpr double least_gap = 0.5;
 /// An end nearer than this to the outer boundary, in edge lengths, is moved onto the boundary.
 inline constexpr double boundary_snap = 0.01;
-/// An end nearer than this to a fracture point of another fracture, in edge lengths, is moved to that point.
+/// An end nearer than this to a ridge of another fracture, in edge lengths, is moved to that point.
 inline constexpr double joint_snap = 0.01;
 /// A path that meets the outer boundary or another fracture at less than this angle passes too near to it, rad (15
 /// degrees).
@@ -21,7 +21,7 @@ inline constexpr double least_incidence = 0.2617993877991494;
 /// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). Near a fracture or
 /// boundary that is nearer to the old tip than the least gap, a path may pass at nine tenths of the distance of the
 /// tip, and may leave it at 15 degrees or more. Cells that are replaced count as healed (heal_ends). Returns the
-/// extensions; ends near the outer boundary, or near a fracture point of another fracture inside of the rock, are moved
+/// extensions; ends near the outer boundary, or near a ridge of another fracture inside of the rock, are moved
 /// onto it.
 std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                                             double size);

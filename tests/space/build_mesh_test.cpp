@@ -14,6 +14,7 @@
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/outer_ridges.hpp"
 #include "framework/mesh/partition.hpp"
+#include "framework/mesh/ridge_distance.hpp"
 #include "framework/mesh/separated_mesh.hpp"
 #include "tests/space/box_mesh.hpp"
 
@@ -196,6 +197,20 @@ TEST_P(Space, FracturesSplitABox) {
   expect_crossed_box(mesh, [](double x, double y, double z) { return Point(x, y, z); });
   // The normal of the first fracture is that of the faces it was given, and its strike is horizontal.
   for (const FractureCell& cell : mesh.fracture_cells) EXPECT_NEAR(cell.tangents(2, 0), 0, rounding);
+}
+
+TEST_P(Space, RidgesAreAsFarAsTheirHeightsSay) {
+  // From the centre of gravity half of the way across a quadrilateral, a third of the height of a triangle: its area
+  // over the length of the edge, and 2/3 of that.
+  BoxMesh box = crossed_box(GetParam());
+  box.turn(Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()));
+  const Mesh mesh = build_mesh(box.raw);
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+    const FractureCell& cell = mesh.fracture_cells[i];
+    const double share = cell.ridges.size() == 3 ? 2.0 / 3 : 0.5;
+    for (const int ridge : cell.ridges)
+      EXPECT_NEAR(distance_to_ridge(mesh, i, ridge), share * cell.measure / mesh.ridges[ridge].measure, rounding);
+  }
 }
 
 TEST_P(Space, TurnedAndDistorted) {

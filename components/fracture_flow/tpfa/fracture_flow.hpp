@@ -203,7 +203,7 @@ class FractureFlow : public Component,
   /// The end of a cell that is nearer to a point, and how far the point is on the way there from the centre. Where no
   /// other cell meets this one the point counts as the centre.
   struct Spot {
-    int end;        ///< a fracture point
+    int end;        ///< a ridge
     double to_end;  ///< 0 to 1, but for what counts as equally near
   };
   Spot spot(int cell, const Point& at) const;

@@ -1,6 +1,7 @@
 #include "framework/mesh/ridge_distance.hpp"
 
 #include <Eigen/Geometry>
+#include <stdexcept>
 
 namespace sprekk {
 
@@ -13,7 +14,7 @@ double distance_to_ridge(const Mesh& mesh, int cell, int ridge) {
     if (0.5 * (from + to) == mesh.ridges[ridge].center)
       return (of.center - from).cross((to - from).normalized()).norm();
   }
-  return 0;
+  throw std::logic_error("a ridge belongs to another fracture cell");
 }
 
 }  // namespace sprekk
