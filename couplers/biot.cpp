@@ -22,8 +22,8 @@
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/mesh/mesh_change.hpp"
-#include "framework/mesh/plane/planar.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
 

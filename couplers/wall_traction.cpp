@@ -14,8 +14,8 @@
 #include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/mesh/network_shape.hpp"
-#include "framework/mesh/plane/planar.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {

@@ -15,7 +15,7 @@
 #include "components/contact/rate_and_state_walls.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/scene/fracture_set.hpp"
 
 namespace sprekk::contact {

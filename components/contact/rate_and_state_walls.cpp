@@ -10,7 +10,7 @@
 #include "components/contact/places_of_parameters.hpp"
 #include "framework/config/units.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk::contact {
 

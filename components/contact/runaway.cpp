@@ -8,7 +8,7 @@
 #include "components/contact/frictional_contact.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/output/progress.hpp"
 
 namespace sprekk::contact {

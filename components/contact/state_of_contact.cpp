@@ -9,7 +9,7 @@
 #include "components/contact/rate_and_state_walls.hpp"
 #include "components/contact/shear_load.hpp"
 #include "components/contact/trial_state.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk::contact {
 

@@ -54,8 +54,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
   initial_pressure_ = property(options_.initial_pressure).values();
   pressure_.set_both(initial_pressure_);
-  permeability_ = {property(options_.permeability.xx), property(options_.permeability.yy),
-                   property(options_.permeability.xy)};
+  std::ranges::transform(options_.permeability.component, permeability_.begin(), property);
   viscosity_ = property(options_.viscosity);
   if (options_.porosity) porosity_ = property(*options_.porosity);
   if (options_.storage) {

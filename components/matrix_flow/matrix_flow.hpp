@@ -260,7 +260,7 @@ class MatrixFlow : public Component,
   BorderTraces border_traces_;
   std::vector<char> open_faces_;  ///< of all of them, one flag a face; empty for none
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
-  std::array<Property, 3> permeability_;  ///< xx, yy, xy
+  std::array<Property, symmetric_components> permeability_;  ///< as symmetric_axes has them
   Property viscosity_, porosity_, compressibility_, storage_;
   Vector rock_storage_;  ///< see accept_rock_storage; empty if no coupler has told it
   bool properties_change_ = false;

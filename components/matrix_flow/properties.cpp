@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "components/matrix_flow/matrix_flow.hpp"
-#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/linear_fit.hpp"
+#include "framework/discretization/principal_axes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/separated_mesh.hpp"
 
@@ -11,7 +11,8 @@ namespace sprekk::matrix_flow {
 
 std::vector<const Data*> MatrixFlow::properties() const {
   const TensorData& k = options_.permeability;
-  std::vector<const Data*> data = {&k.xx, &k.yy, &k.xy, &options_.viscosity};
+  std::vector<const Data*> data = {&options_.viscosity};
+  for (const Data& component : k.component) data.push_back(&component);
   for (const std::optional<Data>* given : {&options_.storage, &options_.porosity, &options_.fluid_compressibility})
     if (*given) data.push_back(&**given);
   return data;
@@ -24,9 +25,9 @@ void MatrixFlow::use_properties() {
   if (version == mobility_version_) return;
   mobility_.resize(mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    Tensor permeability;
-    permeability << permeability_[0][c], permeability_[2][c], permeability_[2][c], permeability_[1][c];
-    mobility_[c] = permeability / viscosity_[c];
+    std::array<double, symmetric_components> permeability;
+    for (int k = 0; k < symmetric_components; ++k) permeability[k] = permeability_[k][c];
+    mobility_[c] = symmetric_tensor(permeability) / viscosity_[c];
     SPREKK_ASSERT(viscosity_[c] > 0 && mobility_[c].allFinite(), c, viscosity_[c]);
   }
   check_mobility();
@@ -41,7 +42,7 @@ void MatrixFlow::check_mobility() {
     const Tensor& mobility = mobility_[c];
     ++cells;
     sealed += mobility.isZero(0);
-    if (!mobility.isZero(0) && mobility(0, 0) * mobility(1, 1) <= mobility(0, 1) * mobility(1, 0))
+    if (!mobility.isZero(0) && !(mobility.determinant() > 0))
       throw DataError(InputError(origin_, "the permeability is not positive definite",
                                  "fluid could not flow in one direction", "raise it in that direction")
                           .what());

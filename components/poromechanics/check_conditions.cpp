@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "framework/dense/symmetric_eigen.hpp"
+#include "framework/discretization/principal_axes.hpp"
 #include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::poromechanics {

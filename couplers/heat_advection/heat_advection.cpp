@@ -20,7 +20,7 @@
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {

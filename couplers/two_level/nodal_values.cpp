@@ -1,6 +1,6 @@
 #include "couplers/two_level/nodal_values.hpp"
 
-#include "framework/dense/symmetric_eigen.hpp"
+#include "framework/discretization/principal_axes.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::couplers {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "couplers/well_exchange/well_patch.hpp"
-#include "framework/dense/symmetric_eigen.hpp"
+#include "framework/discretization/principal_axes.hpp"
 
 namespace sprekk::couplers {
 

@@ -16,13 +16,13 @@
 #include "couplers/well_exchange/well_patch.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/follows_mesh.hpp"
-#include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/point_source.hpp"
+#include "framework/discretization/principal_axes.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/mesh/plane/point_location.hpp"
+#include "framework/mesh/point_location.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {

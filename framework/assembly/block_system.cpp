@@ -8,7 +8,7 @@
 #include "framework/assembly/floating_balances.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -17,7 +17,7 @@ namespace {
 
 /// The positions of entities, m. All entities of one fracture cell are at one point, by which preconditioners group
 /// them.
-std::vector<Point> coordinates(const Mesh& mesh, Location location) {
+std::vector<Point> places(const Mesh& mesh, Location location) {
   if (location == Location::cell) return mesh.cell_center;
   if (location == Location::face) return mesh.face_center;
   if (location == Location::node) return mesh.nodes;
@@ -37,8 +37,10 @@ UnknownBlock describe(const Mesh& mesh, const Field& field, int first) {
   block.entities = field.entities();
   block.components = field.spec().components;
   block.kind = field.spec().role.kind();
-  block.coordinates = coordinates(mesh, field.spec().location);
-  SPREKK_ASSERT(block.coordinates.empty() || static_cast<int>(block.coordinates.size()) == block.entities, block.name);
+  const std::vector<Point> at = places(mesh, field.spec().location);
+  SPREKK_ASSERT(at.empty() || static_cast<int>(at.size()) == block.entities, block.name);
+  block.coordinates.resize(dimension, static_cast<Eigen::Index>(at.size()));
+  for (std::size_t i = 0; i < at.size(); ++i) block.coordinates.col(static_cast<Eigen::Index>(i)) = at[i];
   return block;
 }
 
@@ -198,7 +200,7 @@ std::string BlockSystem::describe_floating(const Assembly& assembly) const {
   });
   SPREKK_ASSERT(block != system_.blocks.end(), one.first);
   const std::string where =
-      block->coordinates.empty() ? "" : " around " + to_text(block->coordinates[one.first - block->first]);
+      block->has_coordinates() ? " around " + to_text(Point(block->coordinates.col(one.first - block->first))) : "";
   return fmt::format(
       "nothing holds {}{} ({} {} of {} store{} nothing, and nothing leads from there to a given value: any constant "
       "may "

@@ -50,17 +50,37 @@ std::vector<double> VectorData::switch_times() const {
   return merged_switch_times(data);
 }
 
-TensorData::TensorData(double isotropic) : xx(isotropic), yy(isotropic), xy(0) {}
-
-TensorData::TensorData(Data xx, Data yy, Data xy) : xx(std::move(xx)), yy(std::move(yy)), xy(std::move(xy)) {}
-
-Tensor TensorData::at(const Place& place) const {
-  const double off_diagonal = xy.at(place);
+Tensor symmetric_tensor(const std::array<double, symmetric_components>& components) {
   Tensor tensor;
-  tensor << xx.at(place), off_diagonal, off_diagonal, yy.at(place);
+  for (int k = 0; k < symmetric_components; ++k) {
+    const auto& [i, j] = symmetric_axes[k];
+    tensor(i, j) = tensor(j, i) = components[k];
+  }
   return tensor;
 }
 
-std::vector<double> TensorData::switch_times() const { return merged_switch_times({&xx, &yy, &xy}); }
+TensorData::TensorData(Data isotropic) { std::fill_n(component.begin(), dimension, std::move(isotropic)); }
+
+Tensor TensorData::at(const Place& place) const {
+  std::array<double, symmetric_components> values;
+  for (int k = 0; k < symmetric_components; ++k) values[k] = component[k].at(place);
+  return symmetric_tensor(values);
+}
+
+bool TensorData::is_zero() const { return std::ranges::all_of(component, &Data::is_zero); }
+
+bool TensorData::is_constant() const { return std::ranges::all_of(component, &Data::is_constant); }
+
+bool TensorData::is_diagonal() const {
+  return std::all_of(component.begin() + dimension, component.end(), [](const Data& each) { return each.is_zero(); });
+}
+
+bool TensorData::depends_on_time() const { return std::ranges::any_of(component, &Data::depends_on_time); }
+
+std::vector<double> TensorData::switch_times() const {
+  std::vector<const Data*> data;
+  for (const Data& each : component) data.push_back(&each);
+  return merged_switch_times(data);
+}
 
 }  // namespace sprekk

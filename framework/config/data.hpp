@@ -54,6 +54,9 @@ class Data {
   std::vector<double> switch_times_;
 };
 
+/// The symmetric tensor with these components, as symmetric_axes has them.
+Tensor symmetric_tensor(const std::array<double, symmetric_components>& components);
+
 /// The switch times (s) of several data, sorted, each once.
 std::vector<double> merged_switch_times(const std::vector<const Data*>& data);
 
@@ -67,15 +70,20 @@ struct VectorData {
   std::vector<double> switch_times() const;
 };
 
-/// A symmetric tensor (xx, yy, xy) of data: written as a scalar (isotropic), {xx:, yy:, xy:}, or
-/// {along:, across:, angle:} (principal values and the direction of the first).
+/// A symmetric tensor of data: written as a scalar (isotropic), by its components ({xx:, yy:, xy:} in a plane), or by
+/// principal values and their direction: {along:, across:, angle:} in a plane; in space {along:, across:, strike:,
+/// dip:}, of layers.
 struct TensorData {
-  Data xx, yy, xy;
-  TensorData(double isotropic = 0);  // NOLINT: a number is isotropic
-  TensorData(Data xx, Data yy, Data xy);
+  std::array<Data, symmetric_components> component;  ///< as symmetric_axes has them
+
+  TensorData() = default;
+  TensorData(Data isotropic);                                    // NOLINT: a scalar is isotropic
+  TensorData(double isotropic) : TensorData(Data(isotropic)) {}  // NOLINT: so is a number
   Tensor at(const Place& place) const;
-  bool is_zero() const { return xx.is_zero() && yy.is_zero() && xy.is_zero(); }
-  bool depends_on_time() const { return xx.depends_on_time() || yy.depends_on_time() || xy.depends_on_time(); }
+  bool is_zero() const;
+  bool is_constant() const;
+  bool is_diagonal() const;  ///< whether all others are zero everywhere
+  bool depends_on_time() const;
   std::vector<double> switch_times() const;
 };
 

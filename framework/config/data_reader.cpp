@@ -149,7 +149,8 @@ Data read_tabulated(const Node& node, const DataRequest& request) {
 Data any_datum(const Node& node, const DataRequest& request) {
   if (node.is_scalar()) return parse_data(node.scalar, request.about.unit, node.origin, request.name);
   const std::string forms_text =
-      "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) + ", an expression of x, y and t, " +
+      "a number" + (request.about.unit.empty() ? "" : " in " + request.about.unit) + ", an expression of " +
+      axes_text() + " and t, " +
       "{regions: …}, {fractures: …}, {column: …}, {table: …}, {run: …} or {value: , from: , to: }";
   if (node.is_null()) throw wrong_kind(node, request.name, forms_text);
   if (request.about.constant_only) throw wrong_kind(node, request.name, "one number");
@@ -191,12 +192,12 @@ std::vector<std::pair<std::string, std::string>> data_keys() {
       {"{value: …, from: …, to: …}", {"value", "from", "to"}},
       {"{table: …, column: …, of: …, unit: …}", {"table", "column", "of", "unit"}},
       {"{regions: {NAME: …, default: …}}", {"regions", "default"}},
-      {"{fractures: {NAME: …, default: …}}", {"fractures"}},
-      {"{xx: …, yy: …, xy: …}", {"xx", "yy", "xy"}},
-      {"{along: …, across: …, angle: …}", {"along", "across", "angle"}}};
+      {"{fractures: {NAME: …, default: …}}", {"fractures"}}};
   std::vector<std::pair<std::string, std::string>> keys;
   for (const auto& [form, names] : known)
     for (const std::string& name : names) keys.emplace_back(name, form);
+  for (const TensorForm& form : tensor_forms())
+    for (const std::string& name : form.keys) keys.emplace_back(name, form.text());
   for (const auto& [form, read] : data_forms()) keys.emplace_back(form, "{" + form + ": …}");
   return keys;
 }
@@ -287,7 +288,7 @@ Data read_data(const Node& node, const DataRequest& request) {
   Data data = any_datum(node, request);
   if (request.about.constant_only && !data.is_constant()) {
     throw InputError(node.origin, quoted(request.name) + " is " + quoted(node.text()),
-                     "needed is one number that does not depend on x, y or t");
+                     "needed is one number that does not depend on place or time");
   }
   if (data.depends_on_time() && !request.about.in_time) {
     throw InputError(node.origin, quoted(request.name) + " depends on time: " + quoted(node.text()),
@@ -300,7 +301,8 @@ Data read_data(const Node& node, const DataRequest& request) {
 }
 
 VectorData read_vector(const Node& node, const DataRequest& request) {
-  const std::string needed = "a list of two values [x, y]";
+  const std::string needed =
+      std::string("a list of ") + (dimension == 2 ? "two" : "three") + " values [" + axes_text() + "]";
   if (!node.is_list()) throw wrong_kind(node, request.name, needed);
   if (node.items.size() != dimension) {
     throw InputError(node.origin, fmt::format("{} has {} values", quoted(request.name), node.items.size()),

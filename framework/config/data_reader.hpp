@@ -29,6 +29,13 @@ Data read_data(const Node& node, const DataRequest& request);
 VectorData read_vector(const Node& node, const DataRequest& request);
 TensorData read_tensor(const Node& node, const DataRequest& request);
 
+/// How a tensor may be written: by its components, or by principal values and their direction.
+struct TensorForm {
+  std::vector<std::string> keys;
+  std::string text() const;  ///< "{xx: …, yy: …, xy: …}"
+};
+std::vector<TensorForm> tensor_forms();
+
 /// The value for each region by index, from {regions: {name: value, …, default: value}} where `read` reads a value.
 template <class Value, class Read>
 std::vector<Value> read_by_region(const Node& node, const DataRequest& request, const Read& read);

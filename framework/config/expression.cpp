@@ -53,7 +53,8 @@ void define_constants(mu::Parser& parser) {
 
 /// The names that messages suggest.
 std::vector<std::string> known_names(const mu::Parser& parser) {
-  std::vector<std::string> names = {"x", "y", "t", "pi", "e"};
+  std::vector<std::string> names = {"t", "pi", "e"};
+  names.insert(names.begin(), axis_names.begin(), axis_names.end());
   for (const auto& [name, unused] : parser.GetFunDef()) names.push_back(name);
   for (const char* unit : {"m",   "mm",  "cm",  "km",  "kg", "s", "h", "day", "year", "Pa",
                            "kPa", "MPa", "GPa", "bar", "N",  "J", "K", "deg", "rad",  "l"})
@@ -86,8 +87,7 @@ class Expression {
   Expression(const std::string& text, double scale, const Origin& where) : text_(text), scale_(scale), where_(where) {
     define_functions(parser_);
     define_constants(parser_);
-    parser_.DefineVar("x", &x_);
-    parser_.DefineVar("y", &y_);
+    for (int k = 0; k < dimension; ++k) parser_.DefineVar(axis_names[k], &x_[k]);
     parser_.DefineVar("t", &t_);
     if (text.size() > longest_expression) fail("it is longer than 4000 characters");
     if (has_assignment(text)) fail("'=' assigns", "compare with '=='");
@@ -120,8 +120,7 @@ class Expression {
 
   double unchecked(const Place& place) {
     const std::lock_guard lock(one_at_a_time_);
-    x_ = place.x[0];
-    y_ = place.x[1];
+    x_ = place.x;
     t_ = place.t;
     return scale_ * parser_.Eval();
   }
@@ -221,7 +220,8 @@ class Expression {
   std::string text_;
   double scale_;
   Origin where_;
-  double x_ = 0, y_ = 0, t_ = 0;
+  Point x_ = Point::Zero();
+  double t_ = 0;
   bool uses_time_ = false, uses_space_ = false;
   mu::Parser parser_;
   std::mutex one_at_a_time_;
@@ -230,7 +230,9 @@ class Expression {
 }  // namespace
 
 std::string place_text(const Place& place) {
-  return fmt::format("x = {}, y = {}, t = {}", place.x[0], place.x[1], place.t);
+  std::string text;
+  for (int k = 0; k < dimension; ++k) text += fmt::format("{} = {}, ", axis_names[k], place.x[k]);
+  return text + fmt::format("t = {}", place.t);
 }
 
 Data parse_expression(const std::string& text, double scale, const Origin& where) {
@@ -253,7 +255,11 @@ std::vector<Place> test_places() {
   constexpr std::array lengths = {0.3719, -17.193, 1193.7};
   std::vector<Place> places;
   for (const double t : times)
-    for (const double x : lengths) places.push_back({Point(x, lengths[places.size() % 2] - x), 0, t});
+    for (const double x : lengths) {
+      Point at = Point::Constant(x);
+      for (int k = 1; k < dimension; ++k) at[k] = k * lengths[places.size() % 2] - x;
+      places.push_back({at, 0, t});
+    }
   return places;
 }
 
@@ -262,8 +268,8 @@ struct Resized {
   Expression before, after;
   std::array<double, 5> sizes;
 
-  /// Whether its values change as those of a quantity with this dimension, with x, y and t as plain numbers or with
-  /// units.
+  /// Whether its values change as those of a quantity with this dimension, with places and times as plain numbers or
+  /// with units.
   bool has_dimension(const Dimension& dimension, bool has_length, bool has_time) {
     constexpr double rounding = 1e-9;
     for (const Place& place : test_places()) {

@@ -18,19 +18,28 @@ std::string text_of(const Data& data, const About& about) {
   return data.is_constant() ? text_of(data.at({}), about) : "(function)";
 }
 
-std::string text_of(const VectorData& vector, const About& about) {
-  return "[" + text_of(vector.component[0], about) + ", " + text_of(vector.component[1], about) + "]";
+/// Numbers or data of a point or vector in brackets.
+template <class Values>
+std::string listed_numbers(const Values& values, const About& about) {
+  std::string text;
+  for (int k = 0; k < dimension; ++k) text += (k == 0 ? "[" : ", ") + text_of(values[k], about);
+  return text + "]";
 }
+
+std::string text_of(const VectorData& vector, const About& about) { return listed_numbers(vector.component, about); }
 
 std::string text_of(const TensorData& tensor, const About& about) {
-  const std::string xx = text_of(tensor.xx, about), yy = text_of(tensor.yy, about);
-  if (tensor.xy.is_zero() && xx == yy) return xx;
-  return "{xx: " + xx + ", yy: " + yy + ", xy: " + text_of(tensor.xy, about) + "}";
+  std::vector<std::string> texts;
+  for (const Data& each : tensor.component) texts.push_back(text_of(each, about));
+  if (tensor.is_diagonal() && std::all_of(texts.begin(), texts.begin() + dimension,
+                                          [&](const std::string& text) { return text == texts.front(); }))
+    return texts.front();
+  std::string text;
+  for (int k = 0; k < symmetric_components; ++k) text += (k == 0 ? "{" : ", ") + symmetric_name(k) + ": " + texts[k];
+  return text + "}";
 }
 
-std::string text_of(const Point& point, const About& about) {
-  return "[" + text_of(point[0], about) + ", " + text_of(point[1], about) + "]";
-}
+std::string text_of(const Point& point, const About& about) { return listed_numbers(point, about); }
 
 template <class Value>
 std::string text_of(const std::vector<Value>& values, const About& about) {
@@ -57,7 +66,7 @@ const Node& list_of(const Node& node, const std::string& name, const std::string
 }
 
 Point read_point(const Node& node, const std::string& name, const About& about) {
-  const std::string needed = "a point [x, y]" + (about.unit.empty() ? "" : " in " + about.unit);
+  const std::string needed = "a point [" + axes_text() + "]" + (about.unit.empty() ? "" : " in " + about.unit);
   list_of(node, name, needed);
   if (node.items.size() != dimension) {
     throw InputError(node.origin, fmt::format("{} has {} coordinates", quoted(name), node.items.size()),
@@ -179,7 +188,7 @@ Spec& Spec::points(const std::string& name, std::vector<Point>& target, About ab
   return add(described(name, "points", about, text_of(target, about)),
              [name, about, &target](const Node& node, const ReadContext&) {
                std::vector<Point> points;
-               for (const Node& item : list_of(node, name, "a list of points [[x, y], …]").items) {
+               for (const Node& item : list_of(node, name, "a list of points [[" + axes_text() + "], …]").items) {
                  points.push_back(read_point(item, name, about));
                }
                target = std::move(points);

@@ -10,12 +10,17 @@
 namespace sprekk {
 namespace {
 
+using Components = std::array<double, symmetric_components>;
+
 bool must_be_definite(const About& about) { return about.range.low >= 0; }
 
-/// Whether the tensor is positive definite, or zero where the range of the parameter has 0.
-bool is_definite(double xx, double yy, double xy, const About& about) {
-  if (about.range.low_allowed && xx == 0 && yy == 0 && xy == 0) return true;
-  return xx > 0 && yy > 0 && xx * yy > xy * xy;
+/// Whether the tensor is positive definite (all its leading minors are positive), or zero where the range of the
+/// parameter has 0.
+bool is_definite(const Components& values, const About& about) {
+  const Tensor k = symmetric_tensor(values);
+  if (about.range.low_allowed && k.isZero(0)) return true;
+  if (!(k.diagonal().minCoeff() > 0 && k(0, 0) * k(1, 1) > k(0, 1) * k(0, 1))) return false;
+  return dimension == 2 || k.determinant() > 0;
 }
 
 /// A function of several data at the same place; a constant when all of them are constants.
@@ -40,91 +45,138 @@ Data combined(const std::vector<Data>& parts, const Combine& combine) {
   return Data(std::move(evaluate), in_time, in_space, merged_switch_times(pointers));
 }
 
+std::string described(const Components& values) {
+  std::string text;
+  for (int k = 0; k < symmetric_components; ++k)
+    text += fmt::format("{}{} = {}", k == 0 ? "" : ", ", symmetric_name(k), values[k]);
+  return text;
+}
+
 /// Checks that the components together are a definite tensor: constants now, other data at every evaluation of the
-/// off-diagonal component.
+/// last component.
 TensorData definite(TensorData tensor, const Origin& where, const DataRequest& request) {
   if (!must_be_definite(request.about)) return tensor;
-  const bool is_constant = tensor.xx.is_constant() && tensor.yy.is_constant() && tensor.xy.is_constant();
-  if (is_constant) {
-    const double xx = tensor.xx.at({}), yy = tensor.yy.at({}), xy = tensor.xy.at({});
-    if (is_definite(xx, yy, xy, request.about)) return tensor;
-    throw InputError(where, quoted(request.name) + " is not positive definite",
-                     fmt::format("xx yy = {} must be larger than xy^2 = {}", xx * yy, xy * xy));
+  const auto why = [](const Components& values) {
+    return dimension == 2
+               ? fmt::format("xx yy = {} must be larger than xy^2 = {}", values[0] * values[1], values[2] * values[2])
+               : "a principal value of " + described(values) + " is not positive";
+  };
+  if (tensor.is_constant()) {
+    Components values;
+    for (int k = 0; k < symmetric_components; ++k) values[k] = tensor.component[k].at({});
+    if (is_definite(values, request.about)) return tensor;
+    throw InputError(where, quoted(request.name) + " is not positive definite", why(values));
   }
-  if (tensor.xy.is_zero()) return tensor;
+  if (tensor.is_diagonal()) return tensor;
   const auto checked = [where, name = request.name, about = request.about](const std::vector<double>& values,
                                                                            const Place& place) {
-    if (is_definite(values[0], values[1], values[2], about)) return values[2];
-    throw DataError(fmt::format("{}: {} is not positive definite at {} (xx = {}, yy = {}, xy = {})", where.text(),
-                                quoted(name), place_text(place), values[0], values[1], values[2]));
+    Components components;
+    std::ranges::copy(values, components.begin());
+    if (is_definite(components, about)) return components.back();
+    throw DataError(fmt::format("{}: {} is not positive definite at {} ({})", where.text(), quoted(name),
+                                place_text(place), described(components)));
   };
-  tensor.xy = combined({tensor.xx, tensor.yy, tensor.xy}, checked);
+  tensor.component.back() = combined({tensor.component.begin(), tensor.component.end()}, checked);
   return tensor;
 }
 
-TensorData read_components(const Node& node, const DataRequest& request) {
-  require_known_keys(node, {"xx", "yy", "xy"}, request);
-  About any_sign = request.about;
-  any_sign.range = {};
-  const Node* off_diagonal = node.find("xy");
-  return definite(
-      {read_data(required_entry(node, "xx", request), request), read_data(required_entry(node, "yy", request), request),
-       off_diagonal == nullptr ? Data(0) : read_data(*off_diagonal, {request.name, any_sign, request.context})},
-      node.origin, request);
+std::vector<std::string> component_keys() {
+  std::vector<std::string> keys;
+  for (int k = 0; k < symmetric_components; ++k) keys.push_back(symmetric_name(k));
+  return keys;
 }
 
-/// a = along, b = across, c and s the cosine and sine of the angle from the x axis to `along`:
-/// xx = a c^2 + b s^2, yy = a s^2 + b c^2, xy = (a - b) s c.
+TensorData read_components(const Node& node, const DataRequest& request) {
+  require_known_keys(node, component_keys(), request);
+  About any_sign = request.about;
+  any_sign.range = {};
+  TensorData tensor;
+  for (int k = 0; k < symmetric_components; ++k) {
+    const std::string key = symmetric_name(k);
+    const Node* off_diagonal = k < dimension ? nullptr : node.find(key);
+    if (k < dimension)
+      tensor.component[k] = read_data(required_entry(node, key, request), request);
+    else if (off_diagonal)
+      tensor.component[k] = read_data(*off_diagonal, {request.name, any_sign, request.context});
+  }
+  return definite(std::move(tensor), node.origin, request);
+}
+
+/// Principal values, and then the angles of their direction.
+std::vector<std::string> principal_keys() {
+  if (dimension == 2) return {"along", "across", "angle"};
+  return {"along", "across", "strike", "dip"};
+}
+
+/// The axis of symmetry: in a plane at `angles[0]` from the x axis, where the tensor has its value `along`; in space
+/// the normal of a plane with this strike (clockwise from y, north) and dip (to the right of the strike), where it has
+/// its value `across`.
+Point axis_of_symmetry(const std::vector<double>& angles) {
+  Point axis;
+  if constexpr (dimension == 2)
+    axis << std::cos(angles[0]), std::sin(angles[0]);
+  else
+    axis << std::sin(angles[1]) * std::cos(angles[0]), -std::sin(angles[1]) * std::sin(angles[0]), std::cos(angles[1]);
+  return axis;
+}
+
 TensorData read_principal(const Node& node, const DataRequest& request) {
-  require_known_keys(node, {"along", "across", "angle"}, request);
+  const std::vector<std::string> keys = principal_keys();
+  require_known_keys(node, keys, request);
   About angle_about;
   angle_about.unit = "rad";
-  const std::vector<Data> parts = {
-      read_data(required_entry(node, "along", request), request),
-      read_data(required_entry(node, "across", request), request),
-      read_data(required_entry(node, "angle", request), {request.name + ".angle", angle_about, request.context})};
-  using Values = std::vector<double>;
-  return {
-      combined(parts,
-               [](const Values& v, const Place&) {
-                 const double c = std::cos(v[2]), s = std::sin(v[2]);
-                 return v[0] * c * c + v[1] * s * s;
-               }),
-      combined(parts,
-               [](const Values& v, const Place&) {
-                 const double c = std::cos(v[2]), s = std::sin(v[2]);
-                 return v[0] * s * s + v[1] * c * c;
-               }),
-      combined(parts, [](const Values& v, const Place&) { return (v[0] - v[1]) * std::sin(v[2]) * std::cos(v[2]); })};
+  std::vector<Data> parts;
+  for (const std::string& key : keys) {
+    const Node& value = required_entry(node, key, request);
+    const DataRequest of_angle{request.name + "." + key, angle_about, request.context};
+    parts.push_back(read_data(value, parts.size() < 2 ? request : of_angle));
+  }
+  TensorData tensor;
+  for (int k = 0; k < symmetric_components; ++k)
+    tensor.component[k] = combined(parts, [k](const std::vector<double>& v, const Place&) {
+      const Point axis = axis_of_symmetry({v.begin() + 2, v.end()});
+      const auto& [i, j] = symmetric_axes[k];
+      if (dimension == 3) return (i == j ? v[0] : 0) + (v[1] - v[0]) * axis[i] * axis[j];
+      return i == j ? v[0] * axis[i] * axis[i] + v[1] * axis[1 - i] * axis[1 - i] : (v[0] - v[1]) * axis[1] * axis[0];
+    });
+  return tensor;
 }
 
 TensorData read_tensor_by_region(const Node& node, const DataRequest& request) {
   const auto tensors =
       read_by_region<TensorData>(node, request, [&](const Node& value) { return read_tensor(value, request); });
-  std::vector<Data> xx, yy, xy;
-  bool is_diagonal = true;
-  for (const TensorData& tensor : tensors) {
-    xx.push_back(tensor.xx);
-    yy.push_back(tensor.yy);
-    xy.push_back(tensor.xy);
-    is_diagonal = is_diagonal && tensor.xy.is_zero();
+  TensorData whole;
+  for (int k = 0; k < symmetric_components; ++k) {
+    std::vector<Data> parts;
+    for (const TensorData& tensor : tensors) parts.push_back(tensor.component[k]);
+    const bool is_zero = k >= dimension && std::ranges::all_of(parts, &Data::is_zero);
+    if (!is_zero) whole.component[k] = by_region(std::move(parts));
   }
-  return {by_region(std::move(xx)), by_region(std::move(yy)), is_diagonal ? Data(0) : by_region(std::move(xy))};
+  return whole;
 }
 
 }  // namespace
 
+std::string TensorForm::text() const {
+  std::string text;
+  for (const std::string& key : keys) text += (text.empty() ? "{" : ", ") + key + ": …";
+  return text + "}";
+}
+
+std::vector<TensorForm> tensor_forms() { return {{component_keys()}, {principal_keys()}}; }
+
 TensorData read_tensor(const Node& node, const DataRequest& request) {
   if (has(node, "regions")) return read_tensor_by_region(node, request);
-  if (has(node, "along") || has(node, "across") || has(node, "angle")) return read_principal(node, request);
-  if (has(node, "xx") || has(node, "yy") || has(node, "xy")) return read_components(node, request);
+  const auto has_key = [&](const std::string& key) { return has(node, key); };
+  if (std::ranges::any_of(principal_keys(), has_key)) return read_principal(node, request);
+  if (std::ranges::any_of(component_keys(), has_key)) return read_components(node, request);
   if (node.is_map() && !node.entries.empty() && form_of(node).empty())
     throw unknown_form(node, request, {"xx", "along"});
   if (node.is_list() && std::ranges::none_of(node.items, [](const Node& item) { return has(item, "value"); }))
     throw InputError(node.origin, quoted(request.name) + " is a list", "a tensor is no list of its entries",
-                     "write {xx: …, yy: …, xy: …}, {along: …, across: …, angle: …}, or one value for all directions");
-  const Data isotropic = read_data(node, request);
-  return {isotropic, isotropic, 0};
+                     "write " + tensor_forms().front().text() + ", " + tensor_forms().back().text() +
+                         ", or one value for all directions");
+  return read_data(node, request);
 }
 
 }  // namespace sprekk

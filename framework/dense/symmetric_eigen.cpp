@@ -22,9 +22,4 @@ Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::M
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(a, b, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-PrincipalAxes principal_axes(const Tensor& tensor) {
-  const Eigen::SelfAdjointEigenSolver<Tensor> solver(tensor);
-  return {solver.eigenvalues(), solver.eigenvectors()};
-}
-
 }  // namespace sprekk

@@ -19,11 +19,4 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
 /// size.
 Eigen::VectorXd generalized_eigenvalues(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// Principal values and axes of a symmetric tensor.
-struct PrincipalAxes {
-  Point values;  ///< in ascending order
-  Tensor axes;   ///< a column each, of length 1
-};
-PrincipalAxes principal_axes(const Tensor& tensor);
-
 }  // namespace sprekk

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "framework/invariants.hpp"
+#include "framework/mesh/cell_angles.hpp"
+#include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/plane/cell_shape.hpp"
-#include "framework/mesh/plane/mesh_quality.hpp"
 #include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "framework/dense/least_squares.hpp"
-#include "framework/dense/symmetric_eigen.hpp"
+#include "framework/discretization/principal_axes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/corner_weights.hpp"
 

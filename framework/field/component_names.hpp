@@ -9,16 +9,13 @@
 namespace sprekk {
 
 /// Names of the components of a field in the coordinates of the scene, by their number: x, y for a vector, xx, yy, xy
-/// for a symmetric tensor (the diagonal first), 1, 2, … for other fields, none for a scalar.
+/// for a symmetric tensor (symmetric_axes), 1, 2, … for other fields, none for a scalar.
 inline std::vector<std::string> component_names(int components) {
-  static const char* const axes[] = {"x", "y", "z"};
   std::vector<std::string> names;
   if (components == dimension) {
-    for (int i = 0; i < dimension; ++i) names.emplace_back(axes[i]);
+    names.assign(axis_names.begin(), axis_names.end());
   } else if (components == symmetric_components) {
-    for (int i = 0; i < dimension; ++i) names.push_back(std::string(axes[i]) + axes[i]);
-    for (int i = 0; i < dimension; ++i)
-      for (int k = i + 1; k < dimension; ++k) names.push_back(std::string(axes[i]) + axes[k]);
+    for (int k = 0; k < symmetric_components; ++k) names.push_back(symmetric_name(k));
   } else if (components > 1) {
     for (int i = 0; i < components; ++i) names.push_back(std::to_string(i + 1));
   }

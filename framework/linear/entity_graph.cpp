@@ -12,9 +12,8 @@ EntityGraph::EntityGraph(const SparseMatrix& matrix, const std::vector<UnknownBl
   int entities = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const UnknownBlock& block = blocks[b];
-    const auto same_places = std::find_if(blocks.begin(), blocks.begin() + b, [&](const UnknownBlock& other) {
-      return other.entities == block.entities && !block.coordinates.empty() && other.coordinates == block.coordinates;
-    });
+    const auto same_places = std::find_if(blocks.begin(), blocks.begin() + b,
+                                          [&](const UnknownBlock& other) { return block.is_at_places_of(other); });
     const bool is_new = same_places == blocks.begin() + b;
     first_entity[b] = is_new ? entities : first_entity[same_places - blocks.begin()];
     if (is_new) entities += block.entities;

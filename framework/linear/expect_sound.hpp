@@ -21,8 +21,8 @@ inline void expect_sound([[maybe_unused]] const LinearSystem& system) {
     const int size = block.entities * block.components;
     SPREKK_EXPECT(block.entities >= 0 && block.components > 0, block.name, block.entities, block.components);
     SPREKK_EXPECT(block.first >= 0 && block.first + size <= a.cols(), block.name, block.first, size, a.cols());
-    SPREKK_EXPECT(block.coordinates.empty() || static_cast<int>(block.coordinates.size()) == block.entities, block.name,
-                  block.coordinates.size(), block.entities);
+    SPREKK_EXPECT(block.coordinates.size() == 0 || block.coordinates.cols() == block.entities, block.name,
+                  block.coordinates.cols(), block.entities);
     SPREKK_EXPECT(block.stabilization.size() == 0 || block.stabilization.size() == size, block.name,
                   block.stabilization.size(), size);
     SPREKK_EXPECT(is_finite(block.stabilization), block.name);

@@ -20,10 +20,21 @@ struct UnknownBlock {
   int entities = 0;  ///< cells, fracture cells, …; unknowns are entity-major: first + entity * components + c
   int components = 1;
   BlockKind kind = BlockKind::interface;
-  std::vector<Point> coordinates;  ///< one an entity, for rigid-body modes and partitioning
+  Eigen::MatrixXd coordinates = {};  ///< a column an entity, m, for rigid-body modes and partitioning; or empty
   Vector stabilization;   ///< one an unknown: diagonal to add to the block in a preconditioner or split (fixed stress),
                           ///< or empty
   bool may_store = true;  ///< whether its rows may be balances; false where it is known that they are not
+
+  bool has_coordinates() const { return entities > 0 && coordinates.cols() == entities; }
+  /// Whether both have their unknowns at the same places.
+  bool is_at_places_of(const UnknownBlock& other) const {
+    return has_coordinates() && other.has_coordinates() && coordinates.rows() == other.coordinates.rows() &&
+           coordinates.cols() == other.coordinates.cols() && coordinates == other.coordinates;
+  }
+  /// Whether rigid rotations are motions without force.
+  bool can_turn() const {
+    return kind == BlockKind::bulk_elastic && has_coordinates() && components == coordinates.rows();
+  }
 };
 
 /// A square system of which this process holds some rows. `rows` are global row numbers in ascending order; column

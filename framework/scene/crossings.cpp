@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "framework/mesh/plane/planar.hpp"
-#include "framework/mesh/plane/point_location.hpp"
+#include "framework/mesh/geometry.hpp"
+#include "framework/mesh/point_location.hpp"
 #include "framework/scene/fracture_set.hpp"
 
 namespace sprekk {

@@ -10,6 +10,7 @@
 #include "framework/dense/least_squares.hpp"
 #include "framework/dense/lu.hpp"
 #include "framework/dense/symmetric_eigen.hpp"
+#include "framework/discretization/principal_axes.hpp"
 
 namespace sprekk::test {
 namespace {

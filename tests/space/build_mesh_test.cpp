@@ -392,7 +392,7 @@ TEST(SpaceGeometry, VolumesAndCentresOfTheShapes) {
   EXPECT_LT((tetrahedron.center - Point(1.25, 1.25, 1.25)).norm(), 1e-15);
 }
 
-static_assert(dimension == 3 && symmetric_components == 6 && rigid_rotations == 3);
+static_assert(dimension == 3 && symmetric_components == 6 && rigid_rotations(dimension) == 3);
 
 Point random_point(std::mt19937& random) {
   std::uniform_real_distribution<double> number(-1, 1);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/run/trial_meshes.hpp"
+#include "framework/run/plane/trial_meshes.hpp"
 #include "tests/verification/scene_run.hpp"
 #include "tests/verification/values_of_paper.hpp"
 

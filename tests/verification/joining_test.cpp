@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/scene/change_mesh.hpp"
+#include "framework/scene/plane/change_mesh.hpp"
 #include "tests/verification/scene_run.hpp"
 #include "tests/verification/values_of_paper.hpp"
 

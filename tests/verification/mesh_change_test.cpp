@@ -7,7 +7,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "framework/assembly/counts_work.hpp"
-#include "framework/scene/change_mesh.hpp"
+#include "framework/scene/plane/change_mesh.hpp"
 #include "tests/verification/scene_run.hpp"
 #include "tests/verification/values_of_paper.hpp"
 

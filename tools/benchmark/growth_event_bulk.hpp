@@ -49,7 +49,7 @@ inline std::unique_ptr<Bulk> bulk_of(Model& model, const StepTime& step) {
   bulk->columns = Eigen::MatrixXd(split.bf.matrix)(Eigen::all, split.interface_columns);
   for (const UnknownBlock& block : bulk->system.blocks)
     for (int i = 0; i < block.entities * block.components; ++i) {
-      bulk->place.push_back(block.coordinates[i / block.components]);
+      bulk->place.push_back(block.coordinates.col(i / block.components));
       bulk->kind.push_back(10 * block.components + i % block.components);
     }
   return bulk;

@@ -20,4 +20,6 @@ list(JOIN entries ", " SPREKK_LIBRARY_VERSIONS)
 
 configure_file(${CMAKE_SOURCE_DIR}/framework/output/build_info_values.hpp.in
                ${CMAKE_BINARY_DIR}/generated/framework/output/build_info_values.hpp @ONLY)
-target_include_directories(sprekk_output PRIVATE ${CMAKE_BINARY_DIR}/generated)
+foreach(output sprekk_output sprekk_output_space)
+  target_include_directories(${output} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+endforeach()

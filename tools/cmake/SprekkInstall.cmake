@@ -15,7 +15,7 @@ sprekk_prints(scene.schema.json share/sprekk schema)
 sprekk_prints(study.schema.json share/sprekk schema study)
 add_custom_target(sprekk_shared_files ALL DEPENDS ${shared_files})
 
-install(TARGETS sprekk RUNTIME DESTINATION bin)
+install(TARGETS sprekk sprekk-space RUNTIME DESTINATION bin)
 install(DIRECTORY configs/ DESTINATION share/doc/sprekk/examples)
 install(FILES LICENSE DESTINATION share/doc/sprekk RENAME copyright)
 install(FILES README.md DESTINATION share/doc/sprekk)

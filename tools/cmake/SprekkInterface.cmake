@@ -6,9 +6,10 @@ set(headers_file ${CMAKE_BINARY_DIR}/generated/public_headers.txt)
 list(JOIN public_headers "\n" headers)
 file(CONFIGURE OUTPUT ${headers_file} CONTENT "${headers}")
 add_custom_command(OUTPUT ${interface_tag}
-                   COMMAND ${CMAKE_COMMAND} -D version=${PROJECT_VERSION} -D dimension=${SPREKK_DIMENSION}
-                           -D headers=${headers_file} -D output=${interface_tag}
+                   COMMAND ${CMAKE_COMMAND} -D version=${PROJECT_VERSION} -D headers=${headers_file} -D output=${interface_tag}
                            -P ${CMAKE_CURRENT_LIST_DIR}/interface_tag.cmake
                    DEPENDS ${public_headers} ${headers_file} VERBATIM)
-target_sources(sprekk_plugin PRIVATE ${interface_tag})
-target_include_directories(sprekk_plugin PRIVATE ${CMAKE_BINARY_DIR}/generated)
+foreach(plugin sprekk_plugin sprekk_plugin_space)
+  target_sources(${plugin} PRIVATE ${interface_tag})
+  target_include_directories(${plugin} PRIVATE ${CMAKE_BINARY_DIR}/generated)
+endforeach()

@@ -1,6 +1,6 @@
-# cmake -D version=… -D dimension=… -D headers=FILE -D output=FILE -P interface_tag.cmake
+# cmake -D version=… -D headers=FILE -D output=FILE -P interface_tag.cmake
 file(STRINGS ${headers} files)
-set(hashes "${dimension}")
+set(hashes "")
 foreach(file ${files})
   file(SHA256 ${file} hash)
   string(APPEND hashes ${hash})

@@ -6,7 +6,7 @@
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk::fracture_flow {
 

@@ -8,8 +8,8 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
-#include "framework/mesh/plane/planar.hpp"
-#include "framework/mesh/plane/point_location.hpp"
+#include "framework/mesh/geometry.hpp"
+#include "framework/mesh/point_location.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::fracture_flow {

@@ -1,9 +1,9 @@
 #include "framework/linear/iterative/local_elimination.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "framework/dense/lu.hpp"
 #include "framework/invariants.hpp"
@@ -16,30 +16,31 @@ namespace {
 
 // Local unknowns of one fracture cell share a key: its centre (to a small part of the fractures' extent), or for blocks
 // without coordinates the number of the entity among blocks of the same length.
-using CellKey = std::array<long long, 1 + dimension>;
+using CellKey = std::vector<long long>;
 
 std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const Partition& partition) {
-  Point low = Point::Constant(HUGE_VAL), high = Point::Constant(-HUGE_VAL);
-  for (const UnknownBlock& block : system.blocks)
-    for (const Point& point : block.coordinates) {
-      low = low.cwiseMin(point);
-      high = high.cwiseMax(point);
-    }
+  Vector low, high;
+  for (const UnknownBlock& block : system.blocks) {
+    if (!block.has_coordinates()) continue;
+    const Vector lowest = block.coordinates.rowwise().minCoeff(), highest = block.coordinates.rowwise().maxCoeff();
+    low = low.size() == 0 ? lowest : low.cwiseMin(lowest);
+    high = high.size() == 0 ? highest : high.cwiseMax(highest);
+  }
   constexpr double same_place = 1e-8;  // of the extent of the fractures
-  const double spacing = std::max((high - low).maxCoeff(), 0.0) * same_place;
+  const double spacing = low.size() == 0 ? 0 : (high - low).maxCoeff() * same_place;
 
   std::map<CellKey, std::vector<int>> cells;
   const std::vector<int>& unknowns = partition.local().unknowns;
   std::vector<bool> is_placed(unknowns.size(), false);
   for (const UnknownBlock& block : system.blocks) {
     if (block.kind != BlockKind::interface) continue;
-    const bool has_places = static_cast<int>(block.coordinates.size()) == block.entities && spacing > 0;
+    const bool has_places = block.has_coordinates() && spacing > 0;
     for (int entity = 0; entity < block.entities; ++entity) {
       CellKey key{-1, block.entities, entity};
       if (has_places) {
-        const Point steps = (block.coordinates[entity] - low) / spacing;
         key = {0};
-        for (int axis = 0; axis < dimension; ++axis) key[1 + axis] = std::llround(steps[axis]);
+        for (int axis = 0; axis < low.size(); ++axis)
+          key.push_back(std::llround((block.coordinates(axis, entity) - low[axis]) / spacing));
       }
       for (int c = 0; c < block.components; ++c) {
         const int place = partition.place_of[block.first + entity * block.components + c];

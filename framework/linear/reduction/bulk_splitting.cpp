@@ -53,14 +53,15 @@ Vector least_sizes(const SparseMatrix& a, const Vector& size) {
 UnknownBlock chosen_entities(const UnknownBlock& block, const std::vector<char>& is_local, bool local,
                              const std::vector<int>& place) {
   UnknownBlock chosen = block;
-  chosen.entities = 0;
-  chosen.coordinates.clear();
+  std::vector<int> entities;
   for (int entity = 0; entity < block.entities; ++entity) {
     const int unknown = block.first + entity * block.components;
     if (static_cast<bool>(is_local[unknown]) != local) continue;
-    if (chosen.entities++ == 0) chosen.first = place[unknown];
-    if (!block.coordinates.empty()) chosen.coordinates.push_back(block.coordinates[entity]);
+    if (entities.empty()) chosen.first = place[unknown];
+    entities.push_back(entity);
   }
+  chosen.entities = static_cast<int>(entities.size());
+  if (block.has_coordinates()) chosen.coordinates = block.coordinates(Eigen::all, entities);
   return chosen;
 }
 

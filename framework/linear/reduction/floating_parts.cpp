@@ -13,7 +13,7 @@
 namespace sprekk {
 namespace {
 
-constexpr int most_modes = dimension + rigid_rotations;
+constexpr int most_modes = most_axes + most_rotations;
 constexpr double resists = 1e-8;  ///< over the terms of the balances: half of the digits
 using Modes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
 using OfMode = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_modes>;
@@ -21,7 +21,7 @@ using OfMode = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most
 /// A connected set of entities, and the null space that it may have: a constant, or rigid motions.
 struct Part {
   std::vector<int> entities;
-  Point centre = Point::Zero();
+  Coordinates centre;
   double radius = 0;  ///< largest distance from the centre; 0 where nothing can turn
   int modes = 0;
   Modes triangle;  ///< R^T R = sum of w^T w over the balances, w = residuals of the modes over the size of the terms
@@ -107,14 +107,13 @@ class Parts {
 
   void prepare(Part& part) {
     part.modes = block_.components;
-    const bool can_turn = block_.kind == BlockKind::bulk_elastic && block_.components == dimension &&
-                          static_cast<int>(block_.coordinates.size()) == block_.entities;
-    if (can_turn) {
-      for (const int entity : part.entities) part.centre += block_.coordinates[entity] / part.entities.size();
+    if (block_.can_turn()) {
+      part.centre = Coordinates::Zero(block_.components);
+      for (const int entity : part.entities) part.centre += block_.coordinates.col(entity) / part.entities.size();
       for (const int entity : part.entities)
-        part.radius = std::max(part.radius, (block_.coordinates[entity] - part.centre).norm());
+        part.radius = std::max(part.radius, (block_.coordinates.col(entity) - part.centre).norm());
     }
-    if (part.entities.size() > 1 && part.radius > 0) part.modes += rigid_rotations;
+    if (part.entities.size() > 1 && part.radius > 0) part.modes += rigid_rotations(block_.components);
     part.triangle = Modes::Zero(part.modes, part.modes);
   }
 
@@ -123,8 +122,8 @@ class Parts {
     Modes motion = Modes::Zero(block_.components, part.modes);
     motion.leftCols(block_.components).setIdentity();
     if (part.modes > block_.components) {
-      const Point arm = (block_.coordinates[entity] - part.centre) / part.radius;
-      motion.rightCols<rigid_rotations>() = rotated(arm);
+      const Rotations rotations = rotated((block_.coordinates.col(entity) - part.centre) / part.radius);
+      motion.rightCols(rotations.cols()) = rotations;
     }
     return motion;
   }
@@ -145,8 +144,8 @@ class Parts {
       const int component = static_cast<int>(entry.col()) - block_.first - entity * block_.components;
       w[component] += entry.value();
       if (part->modes > block_.components) {
-        const auto motions = rotated(block_.coordinates[entity] - part->centre);
-        for (int k = 0; k < rigid_rotations; ++k)
+        const Rotations motions = rotated(block_.coordinates.col(entity) - part->centre);
+        for (int k = 0; k < motions.cols(); ++k)
           w[block_.components + k] += entry.value() * motions(component, k) / part->radius;
       }
       size += std::abs(entry.value());
@@ -177,9 +176,7 @@ class Parts {
   std::vector<Part> parts_;
 };
 
-bool are_at_the_same_places(const UnknownBlock& a, const UnknownBlock& b) {
-  return &a == &b || (a.entities == b.entities && !a.coordinates.empty() && a.coordinates == b.coordinates);
-}
+bool are_at_the_same_places(const UnknownBlock& a, const UnknownBlock& b) { return &a == &b || a.is_at_places_of(b); }
 
 }  // namespace
 

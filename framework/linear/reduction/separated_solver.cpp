@@ -76,16 +76,16 @@ UnknownBlock without_lone(const UnknownBlock& block, const std::vector<char>& lo
   UnknownBlock rest = block;
   rest.first = first;
   if (lone.empty()) return rest;
-  rest.entities = 0;
-  rest.coordinates.clear();
+  std::vector<int> entities;
   std::vector<double> stabilization;
   for (int i = 0; i < block.entities; ++i) {
     if (lone[block.first + i * block.components]) continue;
-    ++rest.entities;
-    if (!block.coordinates.empty()) rest.coordinates.push_back(block.coordinates[i]);
+    entities.push_back(i);
     if (block.stabilization.size() > 0)
       for (int k = 0; k < block.components; ++k) stabilization.push_back(block.stabilization[i * block.components + k]);
   }
+  rest.entities = static_cast<int>(entities.size());
+  if (block.has_coordinates()) rest.coordinates = block.coordinates(Eigen::all, entities);
   if (block.stabilization.size() > 0)
     rest.stabilization = Eigen::Map<Vector>(stabilization.data(), stabilization.size());
   return rest;

@@ -12,7 +12,7 @@ namespace {
 using Teuchos::ParameterList;
 using Teuchos::RCP;
 using Teuchos::rcp;
-using Coordinates = Tpetra::MultiVector<double>;
+using Places = Tpetra::MultiVector<double>;
 
 std::vector<int> entities_of(const std::vector<int>& ids, const UnknownBlock& block) {
   std::vector<int> entities;
@@ -28,38 +28,36 @@ std::vector<int> entities_of(const std::vector<int>& ids, const UnknownBlock& bl
   return entities;
 }
 
-RCP<Coordinates> make_coordinates(const std::vector<int>& entities, const UnknownBlock& block) {
-  const auto coordinates = rcp(new Coordinates(tpetra::make_map(entities, block.entities), dimension));
-  for (int axis = 0; axis < dimension; ++axis) {
+RCP<Places> make_coordinates(const std::vector<int>& entities, const UnknownBlock& block) {
+  const int axes = static_cast<int>(block.coordinates.rows());
+  const auto coordinates = rcp(new Places(tpetra::make_map(entities, block.entities), axes));
+  for (int axis = 0; axis < axes; ++axis) {
     const Teuchos::ArrayRCP<double> data = coordinates->getDataNonConst(axis);
-    for (std::size_t k = 0; k < entities.size(); ++k) data[k] = block.coordinates[entities[k]][axis];
+    for (std::size_t k = 0; k < entities.size(); ++k) data[k] = block.coordinates(axis, entities[k]);
   }
   return coordinates;
 }
 
 // Translations of every component, and for displacements the rotations about the block's centre.
 RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, const UnknownBlock& block,
-                                              const RCP<const tpetra::Map>& map, bool has_rotations) {
-  const int translations = block.components;
-  const auto modes = rcp(new tpetra::MultiVector(map, translations + (has_rotations ? rigid_rotations : 0)));
+                                              const RCP<const tpetra::Map>& map) {
+  const int translations = block.components, rotations = block.can_turn() ? rigid_rotations(block.components) : 0;
+  const auto modes = rcp(new tpetra::MultiVector(map, translations + rotations));
   for (int c = 0; c < translations; ++c) {
     const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(c);
     for (std::size_t k = 0; k < entities.size(); ++k) data[k * block.components + c] = 1;
   }
-  if (!has_rotations) return modes;
-  Point centre = Point::Zero(), low = block.coordinates.front(), high = low;
-  for (const Point& point : block.coordinates) {
-    centre += point / block.entities;
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
+  if (rotations == 0) return modes;
+  Coordinates centre = Coordinates::Zero(block.components);
+  for (int entity = 0; entity < block.entities; ++entity) centre += block.coordinates.col(entity) / block.entities;
+  const Coordinates low = block.coordinates.rowwise().minCoeff(), high = block.coordinates.rowwise().maxCoeff();
   constexpr double above_zero = 1e-300;  // m, for a block of one place
   const double extent = std::max((high - low).maxCoeff(), above_zero);
-  for (int rotation = 0; rotation < rigid_rotations; ++rotation) {
+  for (int rotation = 0; rotation < rotations; ++rotation) {
     const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(translations + rotation);
     for (std::size_t k = 0; k < entities.size(); ++k) {
-      const auto motions = rotated((block.coordinates[entities[k]] - centre) / extent);
-      for (int c = 0; c < dimension; ++c) data[dimension * k + c] = motions(c, rotation);
+      const Rotations motions = rotated((block.coordinates.col(entities[k]) - centre) / extent);
+      for (int c = 0; c < translations; ++c) data[translations * k + c] = motions(c, rotation);
     }
   }
   return modes;
@@ -98,8 +96,6 @@ class MueLuMultigrid final : public Multigrid {
     const int unknowns = static_cast<int>(rows.cols());
     const auto map = tpetra::make_map(ids, unknowns);
     const RCP<tpetra::Operator> matrix = tpetra::make_matrix(rows, map, map);
-    const bool has_coordinates = block.entities > 0 && static_cast<int>(block.coordinates.size()) == block.entities;
-    const bool is_elastic = block.kind == BlockKind::bulk_elastic;
 
     ParameterList list;
     list.set("verbosity", "none");
@@ -108,11 +104,10 @@ class MueLuMultigrid final : public Multigrid {
     list.set("aggregation: type", "uncoupled");
     list.set("smoother: type", "RELAXATION");
     list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
-    set_multigrid_levels(list, unknowns, has_coordinates, map->getComm()->getSize() > 1);
+    set_multigrid_levels(list, unknowns, block.has_coordinates(), map->getComm()->getSize() > 1);
     ParameterList& user = list.sublist("user data");
-    user.set("Nullspace", make_near_null_space(entities, block, map,
-                                               is_elastic && has_coordinates && block.components == dimension));
-    if (has_coordinates) user.set("Coordinates", make_coordinates(entities, block));
+    user.set("Nullspace", make_near_null_space(entities, block, map));
+    if (block.has_coordinates()) user.set("Coordinates", make_coordinates(entities, block));
     cycle_ = MueLu::CreateTpetraPreconditioner(matrix, list);
   }
 

@@ -1,4 +1,4 @@
-// Area, centre and angles of triangles and convex quadrilaterals.
+// Area and centre of triangles and convex quadrilaterals.
 #pragma once
 
 #include <vector>
@@ -17,11 +17,5 @@ Point centroid(const std::vector<Point>& nodes, const Ring& corners);
 /// The smallest signed area of the triangles of each corner with its two neighbours, m^2. For a triangle this is its
 /// own area; for a quadrilateral it is positive when the quadrilateral is convex and counter-clockwise.
 double smallest_corner_area(const std::vector<Point>& nodes, const Ring& corners);
-
-/// The smallest and largest angle between neighbouring edges, rad, both positive in convex cells of either orientation.
-struct AngleRange {
-  double smallest, largest;
-};
-AngleRange angles(const std::vector<Point>& nodes, const Ring& corners);
 
 }  // namespace sprekk

@@ -134,7 +134,7 @@ wells: {north: {rate: 1 m^2/s}, south: {rate: 2 l/m/s}}
 probes: [{rate: 3 m^2/s}, {rate: 4 m^2/s}]
 schedule: [{solve: [a, b]}]
 )");
-  EXPECT_EQ(options.permeability.xx.at({}), 2);
+  EXPECT_EQ(options.permeability.component[0].at({}), 2);
   EXPECT_EQ(options.viscosity.at({}), 2e-3);
   ASSERT_TRUE(options.source);
   EXPECT_THAT(options.source->switch_times(), ElementsAre(3));
@@ -251,7 +251,7 @@ class Materials : public testing::Test {
 
 TEST_F(Materials, fill_what_the_component_does_not_say) {
   const Options options = read("viscosity: 3 Pa*s", context_);
-  EXPECT_EQ(options.permeability.xx.at({}), 5);
+  EXPECT_EQ(options.permeability.component[0].at({}), 5);
   EXPECT_EQ(options.viscosity.at({}), 3);
   EXPECT_EQ(options.density, 1000) << "density is not declared as a material";
   EXPECT_THAT(used_, ElementsAre("permeability", "viscosity"));

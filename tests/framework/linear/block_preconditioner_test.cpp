@@ -114,7 +114,7 @@ TEST(LocalElimination, SolvesTheLocalBlockExactly) {
 TEST(LocalElimination, TakesUnknownsThatNoBlockNames) {
   LinearSystem system = test::poisson(6);
   system.blocks.front().entities = 30;
-  system.blocks.front().coordinates.resize(30);
+  system.blocks.front().coordinates.conservativeResize(2, 30);
   const Partition partition(system);
   EXPECT_EQ(partition.local().unknowns.size(), 6u);
   const Vector exact = test::random_vector(36, 1);

@@ -47,7 +47,7 @@ struct Case {
     UnknownBlock block;
     block.name = "x";
     block.entities = static_cast<int>(a.rows());
-    block.coordinates.assign(a.rows(), Point::Zero());
+    block.coordinates.setZero(2, a.rows());
     system.blocks = {block};
     LinearOptions options;
     options.type = "umfpack";

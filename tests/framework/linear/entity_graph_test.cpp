@@ -14,7 +14,8 @@ UnknownBlock field(const std::string& name, int first, int components, const std
   block.components = components;
   block.entities = static_cast<int>(places.size());
   block.kind = BlockKind::bulk_elliptic;
-  block.coordinates = places;
+  block.coordinates.resize(2, block.entities);
+  for (int i = 0; i < block.entities; ++i) block.coordinates.col(i) = places[i];
   return block;
 }
 
@@ -62,7 +63,7 @@ TEST(EntityGraph, NumbersAllUnknownsOfAnEntityOneAfterTheOther) {
 
 TEST(EntityGraph, FieldsAtOtherPlacesAndUnknownsWithoutFieldHaveTheirOwn) {
   LinearSystem system = two_fields(2);
-  system.blocks[1].coordinates[3] += Point(0.1, 0);
+  system.blocks[1].coordinates(0, 3) += 0.1;
   EXPECT_EQ(EntityGraph(system.local, system.blocks).size(), 8);
   system.blocks.pop_back();
   EXPECT_EQ(EntityGraph(system.local, system.blocks).size(), 12);
@@ -85,9 +86,9 @@ TEST(EntityGraph, TheSolverThatOrdersByEntitiesHasTheSolution) {
 /// too.
 LinearSystem felt_from_afar(int width, double radius) {
   LinearSystem system = two_fields(width);
-  const std::vector<Point>& places = system.blocks[0].coordinates;
+  const Eigen::MatrixXd& places = system.blocks[0].coordinates;
   const int count = width * width;
-  const auto from_middle = [&](int i) { return (places[i] - Point(width / 2, width / 2)).norm(); };
+  const auto from_middle = [&](int i) { return (places.col(i) - Point(width / 2, width / 2)).norm(); };
   std::vector<Triplet> entries;
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < count; ++j)

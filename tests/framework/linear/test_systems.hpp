@@ -33,7 +33,8 @@ inline LinearSystem poisson(int n, bool floating = false) {
   const auto id = [n](int i, int j) { return j * n + i; };
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      block.coordinates.emplace_back((i + 1.0) / (n + 1), (j + 1.0) / (n + 1));
+      block.coordinates.conservativeResize(2, id(i, j) + 1);
+      block.coordinates.col(id(i, j)) << (i + 1.0) / (n + 1), (j + 1.0) / (n + 1);
       double diagonal = 0;
       for (const auto& [di, dj] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
         const bool is_inside = i + di >= 0 && i + di < n && j + dj >= 0 && j + dj < n;
@@ -261,9 +262,9 @@ inline LinearSystem strip(const LinearSystem& whole, int rank, int size) {
   std::vector<Triplet> entries;
   for (const UnknownBlock& block : whole.blocks)
     for (int entity = 0; entity < block.entities; ++entity) {
-      const int owner = block.coordinates.empty()
+      const int owner = block.coordinates.size() == 0
                             ? entity % size
-                            : std::min(size - 1, static_cast<int>(block.coordinates[entity].x() * size));
+                            : std::min(size - 1, static_cast<int>(block.coordinates(0, entity) * size));
       if (owner != rank) continue;
       for (int c = 0; c < block.components; ++c) {
         const int row = block.first + entity * block.components + c;

@@ -1,4 +1,4 @@
-#include "framework/mesh/plane/point_location.hpp"
+#include "framework/mesh/point_location.hpp"
 
 #include <random>
 

@@ -3,7 +3,7 @@
 #include <ctime>
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/plane/mesh_quality.hpp"
+#include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
@@ -31,8 +31,8 @@ TEST(GenerateMesh, PaperGeometryIsOfGoodQuality) {
   const MeshQuality quality = mesh_quality(mesh);
   EXPECT_GT(quality.smallest_angle, 20 * degree);
   EXPECT_EQ(quality.cells_with_one_neighbour, 0);
-  EXPECT_NEAR(quality.area, 4, 1e-12);
-  EXPECT_NEAR(quality.fracture_length, 0.1, 1e-14);
+  EXPECT_NEAR(quality.measure, 4, 1e-12);
+  EXPECT_NEAR(quality.fracture_measure, 0.1, 1e-14);
   EXPECT_EQ(quality.fracture_cells, 20);
   EXPECT_EQ(mesh.side_names, (std::vector<std::string>{"left", "right", "bottom", "top"}));
   EXPECT_EQ(mesh.region_names, std::vector<std::string>{"medium"});
@@ -133,7 +133,7 @@ TEST(GenerateMesh, SmallAndLargeBoxesFarFromTheOrigin) {
       EXPECT_EQ(quality.fracture_cells, reference.fracture_cell_count());
       EXPECT_NEAR(quality.cells, reference.cell_count(), 0.02 * reference.cell_count());
       EXPECT_GT(quality.smallest_angle, 20 * degree);
-      EXPECT_NEAR(quality.area / (scale * scale), 4, 1e-8);
+      EXPECT_NEAR(quality.measure / (scale * scale), 4, 1e-8);
       EXPECT_EQ(mesh.ridges.front().center, geometry.fractures[0].points.front());
       EXPECT_EQ(mesh.ridges.back().center, geometry.fractures[0].points.back());
     }

@@ -3,7 +3,7 @@
 #include <functional>
 #include <map>
 
-#include "framework/mesh/plane/mesh_quality.hpp"
+#include "framework/mesh/mesh_quality.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/size_field.hpp"
 #include "framework/meshing/validate_geometry.hpp"

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "framework/mesh/plane/mesh_quality.hpp"
+#include "framework/mesh/mesh_quality.hpp"
 #include "framework/meshing/arrangement.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"

@@ -1,6 +1,6 @@
 #include "framework/remeshing/extend_fractures.hpp"
 
-#include "framework/mesh/plane/mesh_quality.hpp"
+#include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"

@@ -8,8 +8,8 @@
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/remeshing/extend_fractures.hpp"
-#include "framework/scene/change_mesh.hpp"
-#include "framework/scene/transferred_cells.hpp"
+#include "framework/scene/plane/change_mesh.hpp"
+#include "framework/scene/plane/transferred_cells.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"
 
 namespace sprekk::test {

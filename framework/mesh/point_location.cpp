@@ -1,4 +1,4 @@
-#include "framework/mesh/plane/point_location.hpp"
+#include "framework/mesh/point_location.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/distances.hpp"
 
 namespace sprekk {
 namespace {
@@ -34,33 +34,47 @@ PointLocation::PointLocation(const Mesh& mesh) : mesh_(&mesh) {
   Extent whole;
   for (const Point& node : mesh.nodes) whole.add(node);
   const Point size = whole.high - whole.low;
-  SPREKK_EXPECT(size.allFinite() && size.minCoeff() > 0, size.x(), size.y());
+  SPREKK_EXPECT(size.allFinite() && size.minCoeff() > 0, size[0], size[1]);
   low_ = whole.low;
   constexpr double slack = 1e-10;  // of the extent: round-off of coordinates
   slack_ = slack * size.norm();
-  // Four buckets for a cell of mean area: where a mesh is graded most points are asked for among its small cells.
-  width_ = 0.5 * std::sqrt(size.x() * size.y() / std::max(1, mesh.cell_count()));
-  for (int axis = 0; axis < 2; ++axis) counts_[axis] = 1 + static_cast<int>(size[axis] / width_);
+  // Buckets of half the width of a cell of mean size: where a mesh is graded most points are asked for among its small
+  // cells.
+  width_ = 0.5 * (dimension == 2 ? std::sqrt(size.prod() / std::max(1, mesh.cell_count()))
+                                 : std::cbrt(size.prod() / std::max(1, mesh.cell_count())));
+  for (int axis = 0; axis < dimension; ++axis) counts_[axis] = 1 + static_cast<int>(size[axis] / width_);
 
   const auto for_each_bucket = [&](int cell, auto&& visit) {
     const Extent extent = extent_of(mesh, cell);
-    for (int j = bucket(1, extent.low.y() - slack_); j <= bucket(1, extent.high.y() + slack_); ++j) {
-      for (int i = bucket(0, extent.low.x() - slack_); i <= bucket(0, extent.high.x() + slack_); ++i) {
-        visit(j * counts_[0] + i);
-      }
+    std::array<int, dimension> first, last;
+    for (int axis = 0; axis < dimension; ++axis) {
+      first[axis] = bucket(axis, extent.low[axis] - slack_);
+      last[axis] = bucket(axis, extent.high[axis] + slack_);
+    }
+    std::array<int, dimension> at = first;
+    for (int axis = 0; axis < dimension;) {
+      visit(number(at));
+      for (axis = 0; axis < dimension && ++at[axis] > last[axis]; ++axis) at[axis] = first[axis];
     }
   };
-  cells_.offsets.assign(static_cast<std::size_t>(counts_[0]) * counts_[1] + 1, 0);
+  int buckets = 1;
+  for (const int count : counts_) buckets *= count;
+  cells_.offsets.assign(static_cast<std::size_t>(buckets) + 1, 0);
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     for_each_bucket(cell, [&](int b) { ++cells_.offsets[b + 1]; });
   }
   std::partial_sum(cells_.offsets.begin(), cells_.offsets.end(), cells_.offsets.begin());
   cells_.items.resize(cells_.offsets.back());
   auto next = cells_.offsets;
-  SPREKK_ASSERT(counts_[0] > 0 && counts_[1] > 0, counts_[0], counts_[1]);
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     for_each_bucket(cell, [&](int b) { cells_.items[next[b]++] = cell; });
   }
+}
+
+int PointLocation::number(const std::array<int, dimension>& at) const {
+  int number = 0;
+  for (int axis = dimension - 1; axis >= 0; --axis) number = number * counts_[axis] + at[axis];
+  return number;
 }
 
 int PointLocation::bucket(int axis, double coordinate) const {
@@ -69,14 +83,13 @@ int PointLocation::bucket(int axis, double coordinate) const {
 
 int PointLocation::cell_at(const Point& x) const {
   if (!x.allFinite()) return none;
-  for (const int cell : cells_[bucket(1, x.y()) * counts_[0] + bucket(0, x.x())]) {
-    const Ring& corners = mesh_->cell_nodes[cell];
+  std::array<int, dimension> at;
+  for (int axis = 0; axis < dimension; ++axis) at[axis] = bucket(axis, x[axis]);
+  for (const int cell : cells_[number(at)]) {
     bool is_in = true;
-    for (int k = 0; k < corners.size() && is_in; ++k) {
-      const Point &a = mesh_->nodes[corners[k]], &b = mesh_->nodes[corners.after(k)];
-      const double above = cross(b - a, x - a);
-      is_in = above >= 0 || above >= -slack_ * (b - a).norm();
-    }
+    const CellFaces& faces = mesh_->cell_faces[cell];
+    for (int k = 0; k < faces.size() && is_in; ++k)
+      is_in = depth_below_face(*mesh_, cell, k, x) >= -slack_ * mesh_->face_measure[faces[k]];
     if (is_in) return cell;
   }
   return none;
@@ -88,13 +101,11 @@ int PointLocation::cell_at(const Point& x, int guess) const {
   constexpr int most_steps = 12;
   int cell = guess;
   for (int step = 0; step < most_steps && cell != none; ++step) {
-    const Ring& corners = mesh_->cell_nodes[cell];
     int next = cell;
-    for (int k = 0; k < corners.size() && next == cell; ++k) {
-      const Point &a = mesh_->nodes[corners[k]], &b = mesh_->nodes[corners.after(k)];
-      const double above = cross(b - a, x - a);
-      if (above > 0 && above * above > 4 * slack_ * slack_ * (b - a).squaredNorm()) continue;
-      const auto& [one, other] = mesh_->face_cells[mesh_->cell_faces[cell][k]];
+    const CellFaces& faces = mesh_->cell_faces[cell];
+    for (int k = 0; k < faces.size() && next == cell; ++k) {
+      if (depth_below_face(*mesh_, cell, k, x) > 2 * slack_ * mesh_->face_measure[faces[k]]) continue;
+      const auto& [one, other] = mesh_->face_cells[faces[k]];
       next = one == cell ? other : one;
     }
     if (next == cell) return cell;
@@ -115,9 +126,9 @@ int nearest_fracture_cell(const Mesh& mesh, const Point& x, const std::function<
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     if (counts && !counts(i)) continue;
-    const auto [from, to] = mesh.fracture_cells[i].ridges;
-    const double d = distance(x, Segment{mesh.ridges[from].center, mesh.ridges[to].center});
-    if (d < least - tie * mesh.fracture_cells[i].measure) least = d, nearest = i;
+    const double d = distance_to_fracture_cell(mesh, i, x);
+    const double size = dimension == 2 ? mesh.fracture_cells[i].measure : std::sqrt(mesh.fracture_cells[i].measure);
+    if (d < least - tie * size) least = d, nearest = i;
   }
   return nearest;
 }

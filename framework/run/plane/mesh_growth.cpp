@@ -6,8 +6,8 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/direct/kept_orderings.hpp"
-#include "framework/run/trial_meshes.hpp"
-#include "framework/scene/change_mesh.hpp"
+#include "framework/run/plane/trial_meshes.hpp"
+#include "framework/scene/plane/change_mesh.hpp"
 
 namespace sprekk {
 

@@ -1,4 +1,4 @@
-#include "framework/scene/transfer_in_cells.hpp"
+#include "framework/scene/plane/transfer_in_cells.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "framework/scene/transferred_cells.hpp"
+#include "framework/scene/plane/transferred_cells.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

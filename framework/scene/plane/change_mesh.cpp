@@ -1,4 +1,4 @@
-#include "framework/scene/change_mesh.hpp"
+#include "framework/scene/plane/change_mesh.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,8 +7,8 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/partition.hpp"
 #include "framework/parallel/parallel.hpp"
-#include "framework/scene/transfer_in_cells.hpp"
-#include "framework/scene/transferred_cells.hpp"
+#include "framework/scene/plane/transfer_in_cells.hpp"
+#include "framework/scene/plane/transferred_cells.hpp"
 
 namespace sprekk {
 

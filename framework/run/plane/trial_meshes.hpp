@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "framework/scene/change_mesh.hpp"
+#include "framework/scene/plane/change_mesh.hpp"
 
 namespace sprekk {
 

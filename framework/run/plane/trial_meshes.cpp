@@ -1,4 +1,4 @@
-#include "framework/run/trial_meshes.hpp"
+#include "framework/run/plane/trial_meshes.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -10,11 +10,11 @@ namespace sprekk {
 /// Counts, extents and shapes of a mesh.
 struct MeshQuality {
   int cells = 0, faces = 0, nodes = 0, fractures = 0, fracture_cells = 0;
-  double area = 0;                                                        ///< m^2
-  double fracture_length = 0;                                             ///< m
-  double smallest_angle = 0, mean_smallest_angle = 0, largest_angle = 0;  ///< rad; the mean is over cells
+  double measure = 0;                                                     ///< of the rock, m^2 (m^3 in space)
+  double fracture_measure = 0;                                            ///< m (m^2 in space)
+  double smallest_angle = 0, mean_smallest_angle = 0, largest_angle = 0;  ///< rad (angles()); the mean is over cells
   int flattest_cell = none;                                               ///< the one with the smallest angle
-  double shortest_face = 0, mean_face = 0, longest_face = 0;              ///< m
+  double smallest_face = 0, mean_face = 0, largest_face = 0;              ///< m (m^2 in space)
   int cells_with_one_neighbour = 0;  ///< all other faces lie on the outer boundary or on walls
 };
 

@@ -1,4 +1,4 @@
-#include "framework/mesh/plane/mesh_quality.hpp"
+#include "framework/mesh/mesh_quality.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/plane/cell_shape.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/cell_angles.hpp"
+#include "framework/mesh/distances.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk {
 
@@ -23,10 +24,9 @@ struct FractureNearby {
 /// The fractures that are nearer to a point than `within` (m), the nearest first.
 std::vector<FractureNearby> fractures_nearby(const Mesh& mesh, const Point& point, double within) {
   std::vector<double> distances(mesh.fractures.size(), std::numeric_limits<double>::infinity());
-  for (const FractureCell& cell : mesh.fracture_cells) {
-    const auto& ends = mesh.face_nodes[cell.faces[0]];
-    double& least = distances[cell.fracture];
-    least = std::min(least, distance(point, Segment{mesh.nodes[ends[0]], mesh.nodes[ends[1]]}));
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+    double& least = distances[mesh.fracture_cells[i].fracture];
+    least = std::min(least, distance_to_fracture_cell(mesh, i, point));
   }
   std::vector<FractureNearby> nearby;
   for (std::size_t i = 0; i < distances.size(); ++i)
@@ -45,11 +45,11 @@ MeshQuality mesh_quality(const Mesh& mesh) {
   quality.fractures = static_cast<int>(mesh.fractures.size());
   quality.fracture_cells = mesh.fracture_cell_count();
   if (mesh.cell_count() == 0) return quality;
-  for (const FractureCell& cell : mesh.fracture_cells) quality.fracture_length += cell.measure;
+  for (const FractureCell& cell : mesh.fracture_cells) quality.fracture_measure += cell.measure;
 
   quality.smallest_angle = std::numeric_limits<double>::infinity();
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    quality.area += mesh.cell_measure[cell];
+    quality.measure += mesh.cell_measure[cell];
     const auto [smallest, largest] = angles(mesh.nodes, mesh.cell_nodes[cell]);
     int outer_faces = 0;
     for (const int face : mesh.cell_faces[cell]) outer_faces += mesh.face_cells[face][1] == none ? 1 : 0;
@@ -61,10 +61,10 @@ MeshQuality mesh_quality(const Mesh& mesh) {
     quality.mean_smallest_angle += smallest / mesh.cell_count();
     if (outer_faces + 1 >= mesh.cell_faces[cell].size()) ++quality.cells_with_one_neighbour;
   }
-  const auto [shortest, longest] = std::minmax_element(mesh.face_measure.begin(), mesh.face_measure.end());
-  quality.shortest_face = *shortest;
-  quality.longest_face = *longest;
-  for (const double length : mesh.face_measure) quality.mean_face += length / mesh.face_count();
+  const auto [smallest_face, largest_face] = std::minmax_element(mesh.face_measure.begin(), mesh.face_measure.end());
+  quality.smallest_face = *smallest_face;
+  quality.largest_face = *largest_face;
+  for (const double measure : mesh.face_measure) quality.mean_face += measure / mesh.face_count();
   SPREKK_ASSERT(quality.smallest_angle > 0, quality.smallest_angle);
   return quality;
 }

@@ -22,12 +22,13 @@ class PointLocation {
 
  private:
   int bucket(int axis, double coordinate) const;
+  int number(const std::array<int, dimension>& at) const;  ///< of the bucket with these numbers along the axes
 
   const Mesh* mesh_;
   Point low_;
   double width_ = 1;  ///< of a bucket, m
-  std::array<int, 2> counts_{1, 1};
-  Adjacency cells_;  ///< the cells whose bounding box meets a bucket; bucket (i, j) is entry j * counts_[0] + i
+  std::array<int, dimension> counts_;
+  Adjacency cells_;  ///< the cells whose bounding box meets a bucket, by the number of the bucket
   double slack_ = 0;
 };
 
