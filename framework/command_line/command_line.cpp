@@ -14,6 +14,7 @@
 #include "framework/command_line/converge_command.hpp"
 #include "framework/command_line/explain_command.hpp"
 #include "framework/command_line/graph_command.hpp"
+#include "framework/command_line/hand_over.hpp"
 #include "framework/command_line/manual_page.hpp"
 #include "framework/command_line/new_command.hpp"
 #include "framework/command_line/scene_arguments.hpp"
@@ -33,6 +34,7 @@
 #include "framework/run/simulation.hpp"
 #include "framework/run/start_notes.hpp"
 #include "framework/run/stop_condition.hpp"
+#include "framework/scene/scene_dimension.hpp"
 #include "framework/scene/state_of_run.hpp"
 
 namespace sprekk {
@@ -128,6 +130,7 @@ class Commands {
 
   /// Does what the arguments, which have been parsed, ask for.
   ExitCode run() {
+    if (!scene_.files.empty()) require_dimension(scene_.load());
     take_plugins_of_environment();
     for (const std::string& file : plugins_) load_plugin_of_user(file, {"--plugin"});
     for (const std::string& folder : plugin_folders_) trust_plugins_in(folder, {"--plugins"});
@@ -256,7 +259,11 @@ int run_command_line(int argc, char** argv, const ProgramPurpose& purpose) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::wrong_input);
   }
   try {
-    return static_cast<int>(commands.run());
+    try {
+      return static_cast<int>(commands.run());
+    } catch (const OtherDimension& other) {
+      hand_over(other.dimension, argv);
+    }
   } catch (const InputError& error) {
     return answer_wrong_input(error);
   } catch (const std::exception& error) {

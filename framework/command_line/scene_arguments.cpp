@@ -14,13 +14,17 @@ void SceneArguments::add_to(CLI::App& command) {
       ->type_name("PATH=VALUE");
 }
 
-Scene SceneArguments::read() const {
+Node SceneArguments::load() const {
   const std::vector<Override> overrides = overrides_of(settings);
   for (const std::string& file : files)
     if (file.find('=') != std::string::npos && !std::filesystem::exists(file))
       throw InputError({"sprekk"}, "there is no scene file '" + file + "'", "it looks like a setting",
                        "write --set before each setting");
-  const Node whole = load_scene(files, overrides);
+  return load_scene(files, overrides);
+}
+
+Scene SceneArguments::read() const {
+  const Node whole = load();
   const std::string folder = std::filesystem::path(files.front()).parent_path().string();
   return read_scene(whole, folder.empty() ? "." : folder, std::filesystem::path(files.front()).stem().string());
 }

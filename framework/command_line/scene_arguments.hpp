@@ -15,6 +15,8 @@ struct SceneArguments {
   std::vector<std::string> settings;  ///< "a.b=value"
 
   void add_to(CLI::App& command);
+  /// The scene as it is written, with the overrides. Throws InputError.
+  Node load() const;
   /// Reads the scene. Throws InputError.
   Scene read() const;
 };

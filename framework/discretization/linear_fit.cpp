@@ -21,15 +21,15 @@ std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
         around.insert(cell);
   const std::vector<int> cells(around.begin(), around.end());
   // Minimizes sum (a + b·(x_cell − x) − value)^2; the weights are the first row of the pseudo-inverse.
-  Eigen::MatrixXd basis(cells.size(), 3);
-  const double scale = std::sqrt(mesh.cell_measure[home]);
+  Eigen::MatrixXd basis(cells.size(), 1 + dimension);
+  const double scale = dimension == 2 ? std::sqrt(mesh.cell_measure[home]) : std::cbrt(mesh.cell_measure[home]);
   SPREKK_ASSERT(scale > 0, home, scale);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Point offset = (mesh.cell_center[cells[i]] - x) / scale;
-    basis.row(i) << 1, offset[0], offset[1];
+    basis.row(i) << 1, offset.transpose();
   }
   const LeastSquares fit(basis);
-  if (fit.rank() < 3) return {{home, 1.0}};
+  if (fit.rank() < 1 + dimension) return {{home, 1.0}};
   const Eigen::MatrixXd inverse = fit.pseudo_inverse();
   std::vector<std::pair<int, double>> weights;
   for (std::size_t i = 0; i < cells.size(); ++i) weights.emplace_back(cells[i], inverse(0, i));

@@ -9,6 +9,7 @@
 #include "framework/discretization/principal_axes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/corner_weights.hpp"
+#include "framework/mesh/distances.hpp"
 
 namespace sprekk {
 namespace {
@@ -20,13 +21,14 @@ constexpr double independent = 0.1;
 constexpr double grazes = 1e-6;
 
 /// Whether the line from one point to another crosses a fracture cell.
-bool crosses(const FractureCell& fracture, const Point& from, const Point& to) {
+bool crosses(const Mesh& mesh, int cell, const Point& from, const Point& to) {
+  const FractureCell& fracture = mesh.fracture_cells[cell];
   const double before = (from - fracture.center).dot(fracture.normal),
                after = (to - fracture.center).dot(fracture.normal);
   if (before * after >= 0) return false;
   const Point crossing = from + (to - from) * (before / (before - after));
-  const double radius = std::pow(fracture.measure, 1.0 / (dimension - 1)) / 2;
-  return (crossing - fracture.center).norm() <= radius * (1 + grazes);
+  if (dimension == 2) return (crossing - fracture.center).norm() <= fracture.measure / 2 * (1 + grazes);
+  return distance_to_fracture_cell(mesh, cell, crossing) <= fracture.size() / 2 * grazes;
 }
 
 /// Adds the cells that share a node with one of `cells`, are of the region of `home`, and are seen from its centre.
@@ -43,7 +45,7 @@ std::set<int> with_neighbours(const Mesh& mesh, int home, const std::set<int>& c
   for (const int cell : candidates) {
     bool is_seen = true;
     for (const int wall : walls)
-      is_seen = is_seen && !crosses(mesh.fracture_cells[wall], mesh.cell_center[home], mesh.cell_center[cell]);
+      is_seen = is_seen && !crosses(mesh, wall, mesh.cell_center[home], mesh.cell_center[cell]);
     if (is_seen) seen.insert(cell);
   }
   return seen;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -32,6 +33,9 @@ struct FractureCell {
   /// Unit; (normal, tangents) is a right-handed frame, see tangents_of. In a plane from ridges[0] to ridges[1].
   Tangents tangents;
   bool grown = false;  ///< whether the cell has grown during the run
+
+  /// m: its length, in space the side of a square of its area.
+  double size() const { return dimension == 2 ? measure : std::sqrt(measure); }
 
   /// A vector in the frame of the cell, (normal, tangential), as fields on fracture cells have them.
   Point to_local(const Point& global) const {

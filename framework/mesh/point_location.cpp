@@ -127,8 +127,7 @@ int nearest_fracture_cell(const Mesh& mesh, const Point& x, const std::function<
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     if (counts && !counts(i)) continue;
     const double d = distance_to_fracture_cell(mesh, i, x);
-    const double size = dimension == 2 ? mesh.fracture_cells[i].measure : std::sqrt(mesh.fracture_cells[i].measure);
-    if (d < least - tie * size) least = d, nearest = i;
+    if (d < least - tie * mesh.fracture_cells[i].size()) least = d, nearest = i;
   }
   return nearest;
 }

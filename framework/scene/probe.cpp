@@ -107,10 +107,10 @@ void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
     if (best == none)
       throw InputError(options.origin, "probe '" + name_ + "' finds no fracture", "there is none of this name");
     const double away = (mesh.fracture_cells[best].center - *options.at).norm();
-    if (away > mesh.fracture_cells[best].measure)
+    if (away > mesh.fracture_cells[best].size())
       throw InputError(options.origin, "probe '" + name_ + "' lies away from the fractures",
                        "the nearest fracture cell is " + fmt::format("{:.3g} m", away) + " away and only " +
-                           fmt::format("{:.3g} m", mesh.fracture_cells[best].measure) + " long",
+                           fmt::format("{:.3g} m", mesh.fracture_cells[best].size()) + " long",
                        "choose a point on a fracture");
     if (is_a_choice_)
       weights_ = {{best, 1.0}};
@@ -176,7 +176,10 @@ void Probe::measure(std::vector<Quantity>& quantities, const std::vector<OutputF
       if (on_fracture && largest <= 0) result = std::min(result, 0.0);
     }
     std::string unit = unit_;
-    if (take_ == "integral") unit += on_fracture ? "*m" : "*m^2";
+    if (take_ == "integral") {
+      const int power = on_fracture ? dimension - 1 : dimension;
+      unit += power == 1 ? "*m" : "*m^" + std::to_string(power);
+    }
     quantities.push_back({components_ == 1 ? name_ : name_ + "." + names[k], unit, result});
   }
 }

@@ -1,6 +1,7 @@
 #include "framework/scene/registry.hpp"
 
 #include <algorithm>
+#include <regex>
 
 #include "framework/plugin/plugin.hpp"
 
@@ -15,6 +16,17 @@ void insert_sorted(std::vector<Type>& types, Type type) {
   if (place != types.end() && place->type == type.type) return refuse_registration(type.type);
   note_registration(type.type);
   types.insert(place, std::move(type));
+}
+
+/// Throws InputError for a type that the program for the plane has. `folder`: of all such types.
+void refuse_in_space(const std::string& folder, const std::string& what, const std::string& name, const Origin& where) {
+#ifdef SPREKK_IN_A_PLANE_ALONE
+  if (std::regex_search(folder + "/" + name + "/", std::regex(SPREKK_IN_A_PLANE_ALONE)))
+    throw InputError(where, "there is no " + what + " '" + name + "' for scenes in space yet",
+                     "it is for scenes in a plane so far", "leave it out, or leave out the z of the box");
+#else
+  (void)folder, (void)what, (void)name, (void)where;
+#endif
 }
 
 template <class Type>
@@ -39,10 +51,12 @@ void Registry::add(ComponentType type) { insert_sorted(components_, std::move(ty
 void Registry::add(CouplerType type) { insert_sorted(couplers_, std::move(type)); }
 
 const ComponentType& Registry::component(const std::string& type, const Origin& where) const {
+  refuse_in_space("components", "type of component", type, where);
   return look_up(components_, "type of component", type, where);
 }
 
 const CouplerType& Registry::coupler(const std::string& type, const Origin& where) const {
+  refuse_in_space("couplers", "type of coupler", type, where);
   return look_up(couplers_, "type of coupler", type, where);
 }
 

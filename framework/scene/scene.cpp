@@ -22,6 +22,7 @@
 #include "framework/plugin/plugin.hpp"
 #include "framework/results/run_datum.hpp"
 #include "framework/scene/key_places.hpp"
+#include "framework/scene/scene_dimension.hpp"
 #include "framework/schedule/schedule_context.hpp"
 #include "framework/schedule/solve_step.hpp"
 
@@ -349,6 +350,7 @@ void note_times(Scene& scene) {
 }  // namespace
 
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name) {
+  require_dimension(whole);
   data_forms()["run"] = read_run_datum;
   Scene scene;
   scene.whole = whole;

@@ -114,7 +114,6 @@ endfunction()
 function(sprekk_program name)
   sprekk_program_of(2 ${name} ${ARGN})
   sprekk_program_of(3 ${name}-space ${ARGN})
-  add_dependencies(${name} ${name}-space)
 endfunction()
 
 function(sprekk_program_of dimension name)

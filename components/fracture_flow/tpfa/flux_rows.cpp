@@ -99,15 +99,16 @@ void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
     // The mean of both walls.
     const double across = walls.size() > 0 ? 0.5 * (1 / walls[2 * cell] + 1 / walls[2 * cell + 1]) / viscosity_[cell]
                                            : 0.5 * width * resistivity;
-    arms.push_back(
-        {mesh_.fracture_cells[cell].fracture, half_length(cell, at.ridges.front()), width, resistivity, across});
+    arms.push_back({mesh_.fracture_cells[cell].fracture, distance_to_ridge(mesh_, cell, at.ridges.front()), width,
+                    resistivity, across});
   }
   const std::vector<WayToMiddle> ways = ways_to_middle(arms, fill);
   for (std::size_t i = 0; i < halves.size(); ++i) {
     const WayToMiddle& way = ways[i];
     JunctionFluxes::Half& half = halves[i];
     if (half.value == 0 || (way.kept == 1 && way.added == 0)) continue;
-    const double passed = 1 / (way.kept + half.value * viscosity_[at.cells[i]] * way.added);
+    const double added = way.added / mesh_.ridges[at.ridges.front()].measure;
+    const double passed = 1 / (way.kept + half.value * viscosity_[at.cells[i]] * added);
     half.by_aperture *= way.kept * passed * passed;
     half.by_outflow *= way.kept * passed * passed;
     half.value *= passed;
@@ -158,6 +159,27 @@ double FractureFlow::pressure_drop(const Link& link) const {
   return pressure_.now()[link.first] - second - link.gravity - varying_weight(link);
 }
 
+FractureFlow::FurtherDrop FractureFlow::further_drop(const Link& link) const {
+  FurtherDrop drop;
+  for (const int i : {0, 1}) {
+    const int cell = i == 0 ? link.first : link.second;
+    if (cell == none) continue;
+    const double sign = i == 0 ? 1 : -1;
+    const std::vector<std::pair<int, double>> factors = drops_.at(cell, link.ridge);
+    if (factors.empty()) continue;
+    const Transmissivity t = transmissivity(cell);
+    if (t.value == 0) continue;
+    double own = 0;
+    for (const auto& [ridge, factor] : factors) {
+      own += sign * factor / t.value * flux_.now()[ridge];
+      drop.by_flux.emplace_back(ridge, sign * factor / t.value);
+    }
+    drop.value += own;
+    if (t.by_aperture != 0) drop.by_aperture.emplace_back(cell, -own / t.value * t.by_aperture);
+  }
+  return drop;
+}
+
 void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(flux_)) return;
   const int points = flux_.size(), count = mesh_.fracture_cell_count();
@@ -202,12 +224,16 @@ double FractureFlow::scale_of_row(const Link& link, double conductance, double d
 
 void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& rows) const {
   const double scale = scale_of_row(link, c.value, rows.dt);
-  const double dp = pressure_drop(link), q = flux_.now()[link.ridge];
+  const FurtherDrop further = further_drop(link);
+  const double dp = pressure_drop(link) - further.value, q = flux_.now()[link.ridge];
   rows.of_flux[link.ridge] = scale;
   rows.drop[link.ridge] = -scale * c.value * dp;
   rows.largest_pressure = std::max(rows.largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
   rows.by_pressure.emplace_back(link.ridge, link.first, -scale * c.value);
   if (link.second != none) rows.by_pressure.emplace_back(link.ridge, link.second, scale * c.value);
+  for (const auto& [ridge, by] : further.by_flux) rows.by_flux.emplace_back(link.ridge, ridge, scale * c.value * by);
+  for (const auto& [cell, by] : further.by_aperture)
+    rows.by_aperture.emplace_back(link.ridge, cell, scale * c.value * by);
   for (const auto& [cell, weight] : link.by_density)
     rows.by_density.emplace_back(link.ridge, cell, scale * c.value * weight);
   // The derivative of scale (q − C dp) by an aperture, where d scale / da = −scale^2 dC/da.
@@ -226,6 +252,7 @@ void FractureFlow::add_pattern(const Link& link, FluxRows& rows) const {
   for (const int cell : junction.cells) rows.by_aperture.emplace_back(link.ridge, cell, 0);
   for (const int point : junction.ridges)
     if (point != link.ridge) rows.by_flux.emplace_back(link.ridge, point, 0);
+  for (const auto& [ridge, by] : further_drop(link).by_flux) rows.by_flux.emplace_back(link.ridge, ridge, 0);
 }
 
 void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const {

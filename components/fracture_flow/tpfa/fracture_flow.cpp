@@ -85,8 +85,8 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
   const double start = context.start_time;
   if (const std::optional<Data>& given = options_.given_transmissivity()) {
     given_transmissivity_ = {*given, whole_cells(mesh_), Mean::of_values, start};
-    for (int end = 0; end < 2; ++end)
-      transmissivity_of_half_[end] = {*given, half_cells(mesh_, end), Mean::of_reciprocals, start};
+    for (int place = 0; place < most_ridges(mesh_); ++place)
+      transmissivity_of_part_.emplace_back(*given, parts_of_cells(mesh_, place), Mean::of_reciprocals, start);
   }
   if (options_.normal_permeability_value)
     given_normal_permeability_ = {*options_.normal_permeability_value, whole_cells(mesh_), Mean::of_values, start};
@@ -172,9 +172,10 @@ double FractureFlow::weight_between(const Point& from, const Point& to) const {
 void FractureFlow::evaluate_data(const StepTime& step) {
   for (Property* property : {&compressibility_, &inertia_}) property->evaluate(step);
   if (!viscosity_is_given_) viscosity_.evaluate(step);
-  for (MeansAlong* means : {&given_transmissivity_, &transmissivity_of_half_[0], &transmissivity_of_half_[1],
-                            &given_normal_permeability_, &given_wall_permeability_[0], &given_wall_permeability_[1]})
+  for (MeansAlong* means : {&given_transmissivity_, &given_normal_permeability_, &given_wall_permeability_[0],
+                            &given_wall_permeability_[1]})
     means->evaluate(step);
+  for (MeansAlong& means : transmissivity_of_part_) means.evaluate(step);
   make_links(step);
   prescribe(step);
 }
@@ -220,9 +221,9 @@ FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) c
 double FractureFlow::given_transmissivity(int cell, int point) const {
   const FractureCell& at = mesh_.fracture_cells[cell];
   const Point& position = mesh_.ridges[point].center;
-  const auto away = [&](int end) { return (mesh_.ridges[at.ridges[end]].center - position).squaredNorm(); };
-  const int end = away(0) < away(1) ? 0 : 1;
-  return transmissivity_of_half_[end][cell];
+  const auto away = [&](int ridge) { return (mesh_.ridges[ridge].center - position).squaredNorm(); };
+  const auto nearest = std::ranges::min_element(at.ridges, [&](int a, int b) { return away(a) < away(b); });
+  return transmissivity_of_part_[nearest - at.ridges.begin()][cell];
 }
 
 FractureFlow::Transmissivity FractureFlow::cubic_law(int cell) const {

@@ -14,6 +14,7 @@
 #include "components/fracture_flow/laws/hydraulic_law.hpp"
 #include "components/fracture_flow/tpfa/junction_fluxes.hpp"
 #include "components/fracture_flow/tpfa/mean_along.hpp"
+#include "components/fracture_flow/tpfa/mimetic_drops.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
 #include "components/fracture_flow/tpfa/stored_fluid.hpp"
 #include "framework/assembly/follows_mesh.hpp"
@@ -99,7 +100,7 @@ class FractureFlow : public Component,
   Point point_at(int cell, const Point& at) const override;
   Rise rise_at(int cell, const Point& at) const override;
   double conductance(int cell) const override {
-    return transmissivity(cell).value / mesh_.fracture_cells[cell].measure;
+    return transmissivity(cell).value / (dimension == 2 ? mesh_.fracture_cells[cell].measure : 1);
   }
   bool follows_aperture() const override;
   const Field& flux() const override { return flux_; }
@@ -171,6 +172,13 @@ class FractureFlow : public Component,
   /// K (m^3) of the half of a cell at a point where the transmissivity is given.
   double given_transmissivity(int cell, int point) const;
   double pressure_drop(const Link& link) const;
+  /// What other fluxes than the one through the link add to its pressure drop, with derivatives by fluxes and
+  /// apertures.
+  struct FurtherDrop {
+    double value = 0;  ///< Pa
+    std::vector<std::pair<int, double>> by_flux, by_aperture;
+  };
+  FurtherDrop further_drop(const Link& link) const;
   struct FluxRows;
   /// Terms of a density that varies (varying_density.cpp).
   void weigh_links();
@@ -201,7 +209,7 @@ class FractureFlow : public Component,
   StoredFluid stored_fluid(int cell) const;  ///< in this step, m
   std::vector<int> cells_of(const FracturePlace& where) const;
   /// The end of a cell that is nearer to a point, and how far the point is on the way there from the centre. Where no
-  /// other cell meets this one the point counts as the centre.
+  /// other cell meets this one the point counts as the centre, and so does every point in space.
   struct Spot {
     int end;        ///< a ridge
     double to_end;  ///< 0 to 1, but for what counts as equally near
@@ -262,10 +270,15 @@ class FractureFlow : public Component,
   bool viscosity_is_given_ = false;  ///< by a coupler
   Property inertia_;                 ///< 1/m, one a cell; without values where there is none
   MeansAlong given_transmissivity_, given_normal_permeability_;  ///< m^3, m/(Pa s), one a cell
-  std::array<MeansAlong, 2> transmissivity_of_half_;             ///< by FractureCell::points
+  std::vector<MeansAlong> transmissivity_of_part_;               ///< m^3, by place in FractureCell::ridges
   std::array<MeansAlong, 2> given_wall_permeability_;            ///< by Wall, m/(Pa s), one a cell
   std::vector<CrossingFill> crossing_fills_;                     ///< of each junction
   std::vector<Link> links_;
+
+ protected:
+  MimeticDrops drops_;  ///< of two-point fluxes none
+
+ private:
   Vector source_;                     ///< m^2/s, one a cell
   std::vector<FluidSource> sources_;  ///< the same by name, in the order of Options::injections
   struct Prescribed {

@@ -1,5 +1,6 @@
 #include "components/fracture_flow/tpfa/mean_along.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -24,24 +25,52 @@ const EndRule& end_rule() {
   return rule;
 }
 
+namespace {
+
+Piece piece_of(const Mesh& mesh, int i, const Point& from, const Point& to) {
+  const Place place = fracture_cell_place(mesh, i);
+  return {from, to, place.region, place.fracture};
+}
+
+}  // namespace
+
 std::vector<Piece> whole_cells(const Mesh& mesh) {
   std::vector<Piece> pieces;
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
-    const Point half = 0.5 * cell.measure * cell.tangents.col(0);  // a line cell
-    const Place place = fracture_cell_place(mesh, i);
-    pieces.push_back({cell.center - half, cell.center + half, place.region, place.fracture});
+    if (dimension == 2) {
+      const Point half = 0.5 * cell.measure * cell.tangents.col(0);
+      pieces.push_back(piece_of(mesh, i, cell.center - half, cell.center + half));
+    } else {
+      pieces.push_back(piece_of(mesh, i, cell.center, cell.center));
+      for (const int node : mesh.face_nodes[cell.faces[0]]) pieces.back().corners.push_back(mesh.nodes[node]);
+    }
   }
   return pieces;
 }
 
-std::vector<Piece> half_cells(const Mesh& mesh, int end) {
+std::vector<Piece> parts_of_cells(const Mesh& mesh, int place) {
+  if (dimension == 3) {
+    std::vector<Piece> pieces;
+    for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
+      const FractureCell& cell = mesh.fracture_cells[i];
+      const int ridge = cell.ridges[place < static_cast<int>(cell.ridges.size()) ? place : 0];
+      pieces.push_back(piece_of(mesh, i, cell.center, mesh.ridges[ridge].center));
+    }
+    return pieces;
+  }
   std::vector<Piece> pieces = whole_cells(mesh);
   for (Piece& piece : pieces) {
     const Point center = 0.5 * (piece.from + piece.to);
-    (end == 0 ? piece.to : piece.from) = center;
+    (place == 0 ? piece.to : piece.from) = center;
   }
   return pieces;
+}
+
+int most_ridges(const Mesh& mesh) {
+  std::size_t most = 0;
+  for (const FractureCell& cell : mesh.fracture_cells) most = std::max<std::size_t>(most, cell.ridges.size());
+  return static_cast<int>(most);
 }
 
 MeansAlong::MeansAlong(const Data& data, std::vector<Piece> pieces, Mean mean, double start)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "framework/assembly/property.hpp"
@@ -13,11 +14,15 @@ namespace sprekk::fracture_flow {
 struct Piece {
   Point from, to;  ///< m
   int region = 0, fracture = 0;
+  std::vector<Point> corners = {};  ///< m, in their order around the piece, whose middle is `from`; none for a line
 };
 
-/// The cells of the fractures, and the halves of them at FractureCell::points[end].
+/// The cells of the fractures, and the lines in them from their centres to the middles of FractureCell::ridges[place]:
+/// in a plane half cells. Cells with fewer ridges have a line that nobody asks for.
 std::vector<Piece> whole_cells(const Mesh& mesh);
-std::vector<Piece> half_cells(const Mesh& mesh, int end);
+std::vector<Piece> parts_of_cells(const Mesh& mesh, int place);
+/// The largest number of ridges that a fracture cell has.
+int most_ridges(const Mesh& mesh);
 
 /// How values along a piece are averaged.
 enum class Mean {
@@ -56,10 +61,26 @@ struct EndRule {
 };
 const EndRule& end_rule();  ///< computed at the first call
 
-/// The mean over the piece: exact for polynomials of fifth order, and to 1e-7 for a root or an inverse root of the
-/// distance from one or both ends. The ends themselves are not evaluated.
+/// The mean over a piece with corners: exact for polynomials of second order (the middles of the edges of each
+/// triangle).
+template <typename Function>
+double mean_within(const Piece& piece, const Function& value) {
+  double sum = 0, area = 0;
+  for (std::size_t k = 0; k < piece.corners.size(); ++k) {
+    const Point &a = piece.from, &b = piece.corners[k], &c = piece.corners[(k + 1) % piece.corners.size()];
+    const Point u = b - a, v = c - a;
+    const double part = std::sqrt(u.squaredNorm() * v.squaredNorm() - u.dot(v) * u.dot(v)) / 2;
+    sum += part / 3 * (value(Point((a + b) / 2)) + value(Point((b + c) / 2)) + value(Point((c + a) / 2)));
+    area += part;
+  }
+  return sum / area;
+}
+
+/// The mean over the piece: along a line exact for polynomials of fifth order, and to 1e-7 for a root or an inverse
+/// root of the distance from one or both ends. The ends themselves are not evaluated.
 template <typename Function>
 double mean_along(const Piece& piece, const Function& value) {
+  if (!piece.corners.empty()) return mean_within(piece, value);
   const EndRule& rule = end_rule();
   double sum = 0;
   for (int i = 0; i < EndRule::count; ++i)

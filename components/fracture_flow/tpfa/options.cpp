@@ -175,11 +175,18 @@ void Options::check(const Node& node) {
 }
 
 Spec Options::spec() {
-  write_instead("fracture_flow/tpfa", "wells",
+  return spec("fracture_flow/tpfa", dimension == 2
+                                        ? "Flow in fractures (the paper's Eq. 8): two-point flux approximation along "
+                                          "piecewise linear fractures."
+                                        : "Flow in fractures (the paper's Eq. 8): two-point flux approximation. It is "
+                                          "exact for linear pressures in rectangles alone; see fracture_flow/mfd.");
+}
+
+Spec Options::spec(const std::string& type, const std::string& doc) {
+  write_instead(type, "wells",
                 "give an 'injection' here for a rate and 'prescribed' for a pressure, or add a component wells/limited "
                 "for wells with limits");
-  Spec spec("fracture_flow/tpfa",
-            "Flow in fractures (the paper's Eq. 8): two-point flux approximation along piecewise linear fractures.");
+  Spec spec(type, doc);
   spec.ignore("type");
   declare_fluid(spec);
   spec.data("initial_aperture", initial_aperture,

@@ -67,6 +67,7 @@ struct Options {
   std::map<std::string, Origin> boundary_origins;
   Crossings crossings;
   Spec spec();
+  Spec spec(const std::string& type, const std::string& doc);  ///< of another type with these parameters
 
   /// Whether the transmissivity is given; otherwise it follows from the aperture.
   bool is_constant() const { return has_law ? law.type == "constant" : transmissivity == "constant"; }

@@ -20,6 +20,8 @@ constexpr double equally_near = 2e-6;  // of half a cell: so far beyond its end 
 FractureFlow::Spot FractureFlow::spot(int cell, const Point& at) const {
   SPREKK_EXPECT(is_index(cell, mesh_.fracture_cell_count()), cell, mesh_.fracture_cell_count());
   const FractureCell& home = mesh_.fracture_cells[cell];
+  // Around a point of a surface the pressure has no value that cells could resolve: the cell takes what enters there.
+  if (dimension == 3) return {home.ridges[0], 0};
   const auto end = [&](int k) -> const Point& { return mesh_.ridges[home.ridges[k]].center; };
   const double off = (at - home.center).dot((end(1) - end(0)).normalized());
   const int nearer = home.ridges[off < 0 ? 0 : 1];

@@ -26,10 +26,10 @@ void FractureFlow::check_names() const {
     if (!where.at) return;
     const FractureCell& cell = mesh_.fracture_cells[cells_of(where).front()];
     const double away = (cell.center - *where.at).norm();
-    if (away > cell.measure)
+    if (away > cell.size())
       throw InputError(where.origin, "there is no fracture at this place",
                        "the nearest cell is " + fmt::format("{:.3g} m", away) + " away and only " +
-                           fmt::format("{:.3g} m", cell.measure) + " long",
+                           fmt::format("{:.3g} m", cell.size()) + " long",
                        "choose a point on a fracture");
   };
   for (const auto& [name, injection] : options_.injections) check(injection.where);
@@ -66,7 +66,7 @@ void FractureFlow::check_points_apart() const {
     if (to_end < at_centre) continue;
     const Point& position = mesh_.ridges[end].center;
     for (const Taken& other : taken)
-      if ((other.end - position).norm() < at_centre * mesh_.fracture_cells[cell].measure)
+      if ((other.end - position).norm() < at_centre * mesh_.fracture_cells[cell].size())
         throw InputError(given.where.origin, "'" + name + "' prescribes a pressure where there is one",
                          "'" + *other.name +
                              "' gives a point one that lies between the same centres of cells, around " +

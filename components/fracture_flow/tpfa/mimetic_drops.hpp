@@ -1,0 +1,36 @@
+// What makes two-point fluxes along fractures exact for linear pressures, in cells of any shape.
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::fracture_flow {
+
+/// The mimetic inner product of Brezzi, Lipnikov and Simoncini (Math. Models Methods Appl. Sci. 15 (2005) 1533) in each
+/// fracture cell, without the two-point part. The pressure falls from the centre of a cell to its ridge k by
+///   h_k q_k/T + sum over its ridges j of G_kj q_j/T,
+/// with q_j what flows out there, T the transmissivity, h_k the distance of the ridge over its length. With R the
+/// midpoints of the ridges relative to the centre, N their normals times their lengths, A the area:
+///   G = R R^T/A + P^T h P − h,  P = 1 − N R^T/A.
+/// The first term is exact for linear pressures, and P^T h P, which such flows do not feel, makes the sum positive
+/// definite. G vanishes in rectangles, and in a plane, where cells are lines.
+class MimeticDrops {
+ public:
+  MimeticDrops() = default;  ///< two-point fluxes alone
+  explicit MimeticDrops(const Mesh& mesh);
+
+  /// The ridges by whose fluxes the drop from the centre of a cell to its ridge changes, each with the factor of its
+  /// flux over T, 1/m (dimensionless in space). At a junction, `ridge` is any of the ridges there that belong to the
+  /// cell.
+  std::vector<std::pair<int, double>> at(int cell, int ridge) const;
+
+ private:
+  const Mesh* mesh_ = nullptr;
+  std::vector<Eigen::MatrixXd> of_cell_;  ///< G, by places in FractureCell::ridges
+  std::vector<int> junction_of_ridge_;
+};
+
+}  // namespace sprekk::fracture_flow

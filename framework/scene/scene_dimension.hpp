@@ -1,0 +1,19 @@
+// Of which dimension a scene is. Each program is for one; a scene of another one is handed over to the program for it.
+#pragma once
+
+#include "framework/config/node.hpp"
+
+namespace sprekk {
+
+/// Thrown for a scene of another dimension than that of this program.
+struct OtherDimension {
+  int dimension;
+};
+
+/// 3 for a scene whose box has a z, else 2; wrong input counts as 2.
+int dimension_of(const Node& scene);
+
+/// Throws OtherDimension.
+void require_dimension(const Node& scene);
+
+}  // namespace sprekk
