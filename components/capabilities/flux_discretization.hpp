@@ -46,7 +46,7 @@ struct FacePressureOperators {
 struct OneSidedFluxOperators {
   SparseMatrix cell;      ///< faces × cells
   SparseMatrix boundary;  ///< faces × faces
-  SparseMatrix change;    ///< faces × faces
+  SparseMatrix change;    ///< faces × directions of faces
 
   void swap(OneSidedFluxOperators& other) {
     cell.swap(other.cell);
@@ -57,8 +57,8 @@ struct OneSidedFluxOperators {
 
 /// Fluxes and traces as linear functions of pressures p (one for each cell, Pa), boundary values b (one for each face:
 /// the pressure at the face centre on `pressure` faces, the outward flux integrated over the face, m^2/s, on `flux`
-/// faces, ignored inside) and changes s of the prescribed pressure along `pressure` faces, from the first to the second
-/// node (one for each face, Pa, ignored elsewhere):
+/// faces, ignored inside) and changes s of the prescribed pressure along `pressure` faces, in the directions of each
+/// (AlongFace; those of a face follow one another; Pa, ignored elsewhere):
 ///   flux through every face, out of face_cells[f][0], integrated over it (m^2/s):
 ///     flux_cell p + flux_boundary b + flux_change s
 ///   pressure at the centre of every boundary and wall face (Pa):
@@ -66,7 +66,7 @@ struct OneSidedFluxOperators {
 struct FluxOperators {
   SparseMatrix flux_cell;       ///< faces × cells
   SparseMatrix flux_boundary;   ///< faces × faces
-  SparseMatrix flux_change;     ///< faces × faces
+  SparseMatrix flux_change;     ///< faces × directions of faces
   SparseMatrix trace_cell;      ///< faces × cells; rows of inner faces are empty
   SparseMatrix trace_boundary;  ///< faces × faces; rows of inner faces are empty
   SparseMatrix trace_change;    ///< the same

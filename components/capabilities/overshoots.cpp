@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -28,13 +29,21 @@ double share_of_source(const FlowStep& step, int cell) {
   return all > 0 ? source / all : 0;
 }
 
+/// By how much the potential on a face, times `sign`, exceeds that at its centre.
+double highest_on_face(const FlowStep& step, int face, double sign) {
+  AlongFace changes;
+  for (int k = 0; k < directions_of_faces; ++k)
+    changes[k] = sign * step.boundary_changes[directions_of_faces * face + k];
+  return highest_along_face(step.mesh, face, changes);
+}
+
 /// By how much the potential of a cell, times `sign`, exceeds all potentials from which fluid may have come.
 double excess(const FlowStep& step, int cell, double sign) {
   const double own = sign * step.potential[cell];
   double largest = sign * step.potential_before[cell];
   for (const int face : step.mesh.cell_faces[cell])
     if (step.conditions[face] == FlowCondition::pressure)
-      largest = std::max(largest, sign * step.boundary_values[face] + 0.5 * std::abs(step.boundary_changes[face]));
+      largest = std::max(largest, sign * step.boundary_values[face] + highest_on_face(step, face, sign));
   for (const int node : step.mesh.cell_nodes[cell]) {
     if (largest >= own) return 0;
     for (const int other : step.mesh.node_cells[node])

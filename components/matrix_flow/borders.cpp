@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -95,7 +96,7 @@ void MatrixFlow::make_border_traces() {
   }
   border_traces_.cell = factors.asDiagonal() * equations.continuity_cell;
   border_traces_.boundary = factors.asDiagonal() * equations.continuity_boundary;
-  border_traces_.change = SparseMatrix(faces, faces);
+  border_traces_.change = SparseMatrix(faces, directions_of_faces * faces);
   border_traces_.face.setFromTriplets(others.begin(), others.end());
 }
 

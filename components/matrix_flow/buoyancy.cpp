@@ -1,5 +1,6 @@
 #include "components/matrix_flow/buoyancy.hpp"
 
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 
@@ -28,10 +29,11 @@ class Buoyancy::RowMaker {
     for_each(matrix, [&](int row, int face, double value) {
       if (conditions_[face] == FlowCondition::pressure) add_to_boundary(row, -value, face);
     });
-    for_each(change, [&](int row, int face, double value) {
+    for_each(change, [&](int row, int column, double value) {
+      const int face = column / directions_of_faces;
       if (conditions_[face] != FlowCondition::pressure) return;
-      const auto& [first, second] = mesh_.face_nodes[face];
-      add_boundary(row, -value * gravity(row).dot(mesh_.nodes[second] - mesh_.nodes[first]), face);
+      const Point direction = directions_of_face(mesh_, face)[column % directions_of_faces];
+      add_boundary(row, -value * gravity(row).dot(direction), face);
     });
   }
   /// Adds P at walls.

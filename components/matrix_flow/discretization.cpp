@@ -4,6 +4,7 @@
 #include "components/matrix_flow/flow_inside.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/products.hpp"
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -37,8 +38,8 @@ FluxOperators no_flow(const Mesh& mesh, const std::vector<FlowCondition>& condit
   operators.trace_cell.resize(mesh.face_count(), mesh.cell_count());
   operators.trace_boundary.resize(mesh.face_count(), mesh.face_count());
   operators.flux_boundary.resize(mesh.face_count(), mesh.face_count());
-  operators.flux_change.resize(mesh.face_count(), mesh.face_count());
-  operators.trace_change.resize(mesh.face_count(), mesh.face_count());
+  operators.flux_change.resize(mesh.face_count(), directions_of_faces * mesh.face_count());
+  operators.trace_change.resize(mesh.face_count(), directions_of_faces * mesh.face_count());
   operators.blended_nodes.resize(mesh.face_count(), mesh.face_count());
   std::vector<Triplet> prescribed;
   for (int f = 0; f < mesh.face_count(); ++f)

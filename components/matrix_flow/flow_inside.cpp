@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
@@ -47,32 +48,35 @@ FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, c
     const bool is_cut = separated.face_cells[face] != mesh.face_cells[face];
     keeps[face] = is_cut ? !open.empty() && open[face] : inside[mesh.face_cells[face][0]];
   }
-  const auto reduce = [&](SparseMatrix& matrix, bool has_faces) {
+  /// Columns: some for each face, or one for each cell.
+  const auto reduce = [&](SparseMatrix& matrix, int of_face) {
     if (matrix.rows() == 0) return;
+    const auto is_kept = [&](int column) {
+      return of_face == 0 || (column < of_face * mesh.face_count() && keeps[column / of_face]);
+    };
     std::vector<Triplet> entries;
     for (int row = 0; row < mesh.face_count(); ++row)
       if (keeps[row])
         for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry)
-          if (!has_faces || (entry.col() < mesh.face_count() && keeps[entry.col()]))
-            entries.emplace_back(row, entry.col(), entry.value());
-    SparseMatrix reduced(mesh.face_count(), has_faces ? mesh.face_count() : mesh.cell_count());
+          if (is_kept(static_cast<int>(entry.col()))) entries.emplace_back(row, entry.col(), entry.value());
+    SparseMatrix reduced(mesh.face_count(), of_face > 0 ? of_face * mesh.face_count() : mesh.cell_count());
     reduced.setFromTriplets(entries.begin(), entries.end());
     matrix.swap(reduced);
   };
-  reduce(made.flux_cell, false);
-  reduce(made.trace_cell, false);
-  for (SparseMatrix* of_faces :
-       {&made.flux_boundary, &made.flux_change, &made.trace_boundary, &made.trace_change, &made.blended_nodes})
-    reduce(*of_faces, true);
+  constexpr int of_cells = 0;
+  reduce(made.flux_cell, of_cells);
+  reduce(made.trace_cell, of_cells);
+  for (SparseMatrix* of_faces : {&made.flux_boundary, &made.trace_boundary, &made.blended_nodes}) reduce(*of_faces, 1);
+  for (SparseMatrix* change : {&made.flux_change, &made.trace_change}) reduce(*change, directions_of_faces);
   FacePressureOperators& faces = made.faces;
-  reduce(faces.continuity_cell, false);
+  reduce(faces.continuity_cell, of_cells);
   for (SparseMatrix* of_faces : {&faces.flux, &faces.trace, &faces.continuity_face, &faces.continuity_boundary})
-    reduce(*of_faces, true);
+    reduce(*of_faces, 1);
   if (faces.continuity_face.rows() > 0) keep_values(faces.continuity_face, keeps);
   for (OneSidedFluxOperators& one : made.limited) {
-    reduce(one.cell, false);
-    reduce(one.boundary, true);
-    reduce(one.change, true);
+    reduce(one.cell, of_cells);
+    reduce(one.boundary, 1);
+    reduce(one.change, directions_of_faces);
   }
   if (open.empty()) return made;
   // A face of the cut points out of the cell inside, and in the whole mesh out of its first cell.

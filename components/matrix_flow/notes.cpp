@@ -8,7 +8,7 @@
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/start_balance.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {
@@ -17,14 +17,28 @@ namespace {
 
 constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest borehole has above it
 constexpr double rounding = 1e-6;           // of the initial pressure
-constexpr double on_the_line = 1e-6;        // of a fracture cell: a well that is nearer lies on it
+constexpr double on_it = 1e-6;              // of the size of a fracture cell: a well that is nearer lies on it
+
+/// Whether a point lies between the ends of a fracture cell, or inside of its edges, as seen along its normal. `away`:
+/// from its centre, in its frame.
+bool is_beside(const Mesh& mesh, const FractureCell& cell, const Point& away) {
+  if constexpr (dimension == 2) return std::abs(away[1]) < (0.5 + on_it) * cell.measure;
+  const FaceNodes& nodes = mesh.face_nodes[cell.faces[0]];
+  const int count = static_cast<int>(nodes.size());
+  for (int k = 0; k < count; ++k) {
+    const Point from = cell.to_local(mesh.nodes[nodes[k]] - cell.center);
+    const Point edge = cell.to_local(mesh.nodes[nodes[(k + 1) % count]] - cell.center) - from, way = away - from;
+    if (edge[1] * way[dimension - 1] - edge[dimension - 1] * way[1] < -on_it * cell.measure) return false;
+  }
+  return true;
+}
 
 /// The name of the fracture on which a point lies, or "".
 std::string fracture_at(const Mesh& mesh, const Point& at) {
   for (const FractureCell& cell : mesh.fracture_cells) {
     const Point away = cell.to_local(at - cell.center);
-    if (std::abs(away[0]) < on_the_line * cell.measure && std::abs(away[1]) < (0.5 + on_the_line) * cell.measure)
-      return mesh.fractures[cell.fracture].name;
+    const double size = dimension == 2 ? cell.measure : std::sqrt(cell.measure);
+    if (std::abs(away[0]) < on_it * size && is_beside(mesh, cell, away)) return mesh.fractures[cell.fracture].name;
   }
   return "";
 }

@@ -25,7 +25,7 @@ struct OpenBorder {
 struct BorderTraces {
   SparseMatrix cell;      ///< faces × cells
   SparseMatrix boundary;  ///< faces × faces
-  SparseMatrix change;    ///< faces × faces
+  SparseMatrix change;    ///< faces × directions of faces
   SparseMatrix face;      ///< faces × faces, applied to the pressures h of faces
 };
 

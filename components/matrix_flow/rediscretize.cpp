@@ -2,33 +2,10 @@
 
 #include <cstring>
 
-#include "components/matrix_flow/cells_around_tips.hpp"
-#include "framework/discretization/ends_nearby.hpp"
+#include "components/matrix_flow/cells_read.hpp"
 #include "framework/discretization/kept_regions.hpp"
 
 namespace sprekk::matrix_flow {
-namespace {
-
-/// The cells whose geometry and mobility the local problem of each node may read: its own, and near a tip those to
-/// which the flow around the tip is fitted, and those of all nodes near the same tip (dissipative_share).
-Adjacency cells_read(const Mesh& mesh) {
-  const std::vector<int> tips = ends_nearby(mesh);
-  auto around = cells_around_tips(mesh, tips);
-  for (int node = 0; node < mesh.node_count(); ++node)
-    if (tips[node] != none)
-      around.at(tips[node])
-          .insert(around.at(tips[node]).end(), mesh.node_cells[node].begin(), mesh.node_cells[node].end());
-  Adjacency cells;
-  std::vector<int> of_node;
-  for (int node = 0; node < mesh.node_count(); ++node) {
-    of_node.assign(mesh.node_cells[node].begin(), mesh.node_cells[node].end());
-    if (tips[node] != none) of_node.insert(of_node.end(), around.at(tips[node]).begin(), around.at(tips[node]).end());
-    cells.append_set(of_node);
-  }
-  return cells;
-}
-
-}  // namespace
 
 Rediscretized rediscretize(Discretize discretize, const FlowInputs& before, const FluxOperators& operators,
                            const FlowInputs& after, const MeshChange& change) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {

@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/plane/cell_mean.hpp"
+#include "framework/mesh/cell_mean.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -42,7 +43,7 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
   forget_flow();
   evaluate_sources(step);
   boundary_values_ = Vector::Zero(mesh_.face_count());
-  boundary_changes_ = Vector::Zero(mesh_.face_count());
+  boundary_changes_ = Vector::Zero(directions_of_faces * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_side[f] == none) continue;
     const auto found = options_.boundary.find(mesh_.side_names[mesh_.face_side[f]]);
@@ -50,14 +51,11 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
     const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
     const SideCondition& side = found->second;
     if (side.pressure && (side.pressure->depends_on_space() || !options_.gravity.is_zero())) {
-      // At the third points of the face: these are exact for linear pressures on the face.
-      const Point third = (mesh_.nodes[mesh_.face_nodes[f][1]] - mesh_.nodes[mesh_.face_nodes[f][0]]) / 6;
-      const auto value = [&](const Point& x) {
+      const LinearOnFace linear = linear_on_face(mesh_, f, [&](const Point& x) {
         return value_in_step(*side.pressure, {x, place.region, 0}, step) - gravity_potential(x);
-      };
-      const double first = value(place.x - third), second = value(place.x + third);
-      boundary_values_[f] = 0.5 * (first + second);
-      boundary_changes_[f] = 3 * (second - first);
+      });
+      boundary_values_[f] = linear.at_center;
+      for (int k = 0; k < directions_of_faces; ++k) boundary_changes_[directions_of_faces * f + k] = linear.changes[k];
     } else if (side.pressure) {
       boundary_values_[f] = value_in_step(*side.pressure, place, step);
     }

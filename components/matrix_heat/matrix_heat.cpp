@@ -8,12 +8,13 @@
 #include "components/capabilities/overshoots.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
-#include "framework/mesh/plane/cell_mean.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_heat {
@@ -141,19 +142,18 @@ void MatrixHeat::evaluate_data(const StepTime& step) {
                      return value_in_step(options_.source, {at, mesh_.cell_region[c], 0}, step);
                    });
   boundary_values_ = Vector::Zero(mesh_.face_count());
-  boundary_changes_ = Vector::Zero(mesh_.face_count());
+  boundary_changes_ = Vector::Zero(directions_of_faces * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
     const SideCondition* side = condition(f);
     if (!side) continue;
     const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
     if (side->heat_flux) boundary_values_[f] = value_in_step(*side->heat_flux, place, step) * mesh_.face_measure[f];
     if (!side->temperature) continue;
-    // At the third points of the face: these are exact for linear temperatures on the face.
-    const Point third = (mesh_.nodes[mesh_.face_nodes[f][1]] - mesh_.nodes[mesh_.face_nodes[f][0]]) / 6;
-    const double first = value_in_step(*side->temperature, {place.x - third, place.region, 0}, step);
-    const double second = value_in_step(*side->temperature, {place.x + third, place.region, 0}, step);
-    boundary_values_[f] = 0.5 * (first + second);
-    boundary_changes_[f] = 3 * (second - first);
+    const LinearOnFace linear = linear_on_face(mesh_, f, [&](const Point& x) {
+      return value_in_step(*side->temperature, {x, place.region, 0}, step);
+    });
+    boundary_values_[f] = linear.at_center;
+    for (int k = 0; k < directions_of_faces; ++k) boundary_changes_[directions_of_faces * f + k] = linear.changes[k];
   }
 }
 

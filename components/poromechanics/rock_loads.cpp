@@ -3,8 +3,8 @@
 #include "components/poromechanics/rock.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/cell_mean.hpp"
 #include "framework/mesh/cell_sums.hpp"
-#include "framework/mesh/plane/cell_mean.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::poromechanics {

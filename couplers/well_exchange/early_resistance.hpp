@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "components/capabilities/fluid_fluxes.hpp"
-#include "framework/discretization/point_source.hpp"
+#include "framework/discretization/plane/point_source.hpp"
 
 namespace sprekk::couplers {
 

@@ -16,7 +16,7 @@
 #include "couplers/well_exchange/well_patch.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/follows_mesh.hpp"
-#include "framework/discretization/point_source.hpp"
+#include "framework/discretization/plane/point_source.hpp"
 #include "framework/discretization/principal_axes.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/capabilities/fluid_fluxes.hpp"
-#include "framework/discretization/point_source.hpp"
+#include "framework/discretization/plane/point_source.hpp"
 #include "framework/linear/direct/sparse_lu.hpp"
 #include "framework/mesh/mesh.hpp"
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "framework/discretization/dual_vectors.hpp"
+#include "framework/discretization/subface.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_angles.hpp"
 #include "framework/mesh/mesh_quality.hpp"
-#include "framework/mesh/plane/cell_shape.hpp"
-#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 
@@ -16,6 +16,21 @@ int index_in(std::span<const int> items, int item) {
   return static_cast<int>(std::find(items.begin(), items.end(), item) - items.begin());
 }
 
+template <class Nodes>
+bool touches(const Nodes& face, int node) {
+  return std::find(face.begin(), face.end(), node) != face.end();
+}
+
+/// From the centre of an inner face.
+Point way_to_continuity_point(const Mesh& mesh, int face, int node) {
+  if constexpr (dimension == 2) {
+    return (mesh.nodes[node] - mesh.face_center[face]) / 3;
+  } else {
+    const auto& [way, part] = continuity_point(mesh, face, node);
+    return part * way;
+  }
+}
+
 }  // namespace
 
 void InteractionRegion::assign(const Mesh& mesh, int node) {
@@ -23,36 +38,36 @@ void InteractionRegion::assign(const Mesh& mesh, int node) {
   const auto node_faces = mesh.node_faces[node];
   SPREKK_EXPECT(is_index(node, mesh.node_count()), node, mesh.node_count());
   faces.assign(node_faces.begin(), node_faces.end());
+  shares.resize(faces.size());
+  for (int f = 0; f < subface_count(); ++f) shares[f] = share_at_node(mesh, faces[f], node);
   neighbours.assign(faces.size(), {none, none});
   subcells.resize(node_cells.size());
   for (int k = 0; k < subcell_count(); ++k) {
     Subcell& subcell = subcells[k];
     subcell.cell = node_cells[k];
     const Point& center = mesh.cell_center[subcell.cell];
-    std::array<Point, 2> arm, face_center;
+    std::array<Point, dimension> arm, face_center;
     int found = 0;
     for (const int face : mesh.cell_faces[subcell.cell]) {
-      if (mesh.face_nodes[face][0] != node && mesh.face_nodes[face][1] != node) continue;
+      if (!touches(mesh.face_nodes[face], node)) continue;
       const bool is_inner = mesh.face_cells[face][1] != none;
       const int side = mesh.face_cells[face][0] == subcell.cell ? 0 : 1;
       const int subface = index_in(node_faces, face);
-      SPREKK_ASSERT(found < 2, node, subcell.cell, found);
+      SPREKK_ASSERT(found < dimension, node, subcell.cell, found);
       SPREKK_ASSERT(is_index(subface, subface_count()), node, face, subface);
       subcell.subfaces[found] = subface;
       neighbours[subface][side] = k;
       face_center[found] = mesh.face_center[face];
       arm[found] = face_center[found] - center;
-      if (is_inner) arm[found] += (mesh.nodes[node] - face_center[found]) / 3;
-      subcell.half_face[found] = (side == 0 ? 0.5 : -0.5) * mesh.face_measure[face] * mesh.face_normal[face];
+      if (is_inner) arm[found] += way_to_continuity_point(mesh, face, node);
+      const double share = shares[subface];
+      subcell.half_face[found] = (side == 0 ? share : -share) * mesh.face_measure[face] * mesh.face_normal[face];
       ++found;
     }
-    const double determinant = cross(arm[0], arm[1]);
-    SPREKK_ASSERT(found == 2, node, subcell.cell, found);
-    SPREKK_ASSERT(determinant != 0, node, subcell.cell);
-    subcell.gradient[0] = Point(arm[1][1], -arm[1][0]) / determinant;
-    subcell.gradient[1] = Point(-arm[0][1], arm[0][0]) / determinant;
-    subcell.area = 0.5 * std::abs(cross(mesh.nodes[node] - center, face_center[1] - face_center[0]));
-    SPREKK_ASSERT(subcell.area > 0, node, subcell.cell, subcell.area);
+    SPREKK_ASSERT(found == dimension, node, subcell.cell, found);
+    subcell.gradient = dual_vectors<dimension>(arm);
+    subcell.measure = subcell_measure(center, mesh.nodes[node], face_center, subcell.half_face);
+    SPREKK_ASSERT(subcell.measure > 0, node, subcell.cell, subcell.measure);
   }
 }
 

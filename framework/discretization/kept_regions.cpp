@@ -14,7 +14,7 @@ namespace {
 
 // Not ==, for which zeros of both signs are equal.
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-bool same_bits(const Point& a, const Point& b) { return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y()); }
+bool same_bits(const Point& a, const Point& b) { return std::memcmp(a.data(), b.data(), sizeof a) == 0; }
 
 std::vector<int> inverse(const std::vector<int>& origin, int count) {
   SPREKK_EXPECT(std::ranges::all_of(origin, [&](int i) { return i == none || is_index(i, count); }), count);
@@ -94,8 +94,10 @@ class Comparison {
 
   bool has_same_shape(int face, int was) const {
     const Mesh &after = after_.mesh, &before = before_.mesh;
-    for (int k = 0; k < 2; ++k)
-      if (!same_bits(after.nodes[after.face_nodes[face][k]], before.nodes[before.face_nodes[was][k]])) return false;
+    const FaceNodes &nodes = after.face_nodes[face], &old_nodes = before.face_nodes[was];
+    if (!std::equal(nodes.begin(), nodes.end(), old_nodes.begin(), old_nodes.end(),
+                    [&](int now, int then) { return same_bits(after.nodes[now], before.nodes[then]); }))
+      return false;
     const int wall = after.face_fracture_cell[face], old_wall = before.face_fracture_cell[was];
     if ((wall == none) != (old_wall == none) || (wall != none && change_.fracture_cell[wall] != old_wall)) return false;
     return same_bits(after.face_center[face], before.face_center[was]) &&

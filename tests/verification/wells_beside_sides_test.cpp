@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "framework/discretization/point_source.hpp"
+#include "framework/discretization/plane/point_source.hpp"
 #include "tests/verification/balance_error.hpp"
 
 namespace sprekk::testing {

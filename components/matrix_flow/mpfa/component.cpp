@@ -21,8 +21,8 @@ class Mpfa : public MatrixFlow {
 
   void note_input(Notes& notes) const override {
     MatrixFlow::note_input(notes);
-    if (!is_permeable()) return;
-    note_uncorrected_tips(notes, name(), mesh(), mobility());
+    if constexpr (dimension == 2)
+      if (is_permeable()) note_uncorrected_tips(notes, name(), mesh(), mobility());
   }
 };
 

@@ -1,81 +1,70 @@
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 
+#include "framework/discretization/dual_vectors.hpp"
 #include "framework/invariants.hpp"
 #include "framework/linear/eliminate.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
 
-bool is_triangle(const Mesh& mesh, int cell) { return mesh.cell_nodes[cell].size() == 3; }
-
-/// Where the pressures of both sides of a subface agree, from the centre of the face (0) to the node (1). At the third
-/// points of a triangle, and at the centres of a parallelogram's faces, the arms from the centre of the cell to the
-/// points are dual to the half faces: the fluxes out of a subcell are then a symmetric positive definite function of
-/// its pressure drops, for any tensor. Where all subcells have this property, no flow can gain energy. So the points of
-/// walls and of the boundary are chosen in the same way: with the centre of a wall's face, the flow in a triangle of
-/// anisotropic rock may gain energy.
-double continuity_point(const Mesh& mesh, int face) {
-  for (const int cell : mesh.face_cells[face])
-    if (cell != none && is_triangle(mesh, cell)) return 1.0 / 3;
-  return 0;
-}
-
-double cross(const Point& a, const Point& b) { return a[0] * b[1] - a[1] * b[0]; }
+/// Triangles in a plane, tetrahedra in space.
+bool is_simplex(const Mesh& mesh, int cell) { return mesh.cell_nodes[cell].size() == dimension + 1; }
 
 }  // namespace
 
-void LocalFluxes::find_arms(const Mesh& mesh, int node, const InteractionRegion& region) {
+void LocalFluxes::find_arms(const Mesh& mesh, const InteractionRegion& region) {
   arm_.resize(region.subcell_count());
   gradient_.resize(region.subcell_count());
   for (int k = 0; k < region.subcell_count(); ++k) {
-    auto& arm = arm_[k];
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < dimension; ++i) {
       const int f = region.subcells[k].subfaces[i];
-      const Point& middle = mesh.face_center[region.faces[f]];
-      arm[i] = middle + towards_node_[f] * (mesh.nodes[node] - middle) - mesh.cell_center[region.subcells[k].cell];
+      arm_[k][i] = mesh.face_center[region.faces[f]] + points_[f].part * points_[f].way -
+                   mesh.cell_center[region.subcells[k].cell];
     }
-    const double determinant = cross(arm[0], arm[1]);
-    SPREKK_ASSERT(determinant != 0, node, region.subcells[k].cell);
-    gradient_[k] = {Point(arm[1][1], -arm[1][0]) / determinant, Point(-arm[0][1], arm[0][0]) / determinant};
+    gradient_[k] = dual_vectors<dimension>(arm_[k]);
   }
 }
 
 LocalFluxes::Weights LocalFluxes::consistent(const Subcell& subcell, const Tensor& mobility, int k) const {
   Weights weights;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < dimension; ++i) {
     const Point conormal = mobility.transpose() * subcell.half_face[i];
-    for (int j = 0; j < 2; ++j) weights[i][j] = conormal.dot(gradient_[k][j]);
+    for (int j = 0; j < dimension; ++j) weights[i][j] = conormal.dot(gradient_[k][j]);
   }
   return weights;
 }
 
 /// The same weights, if the half faces are dual to the arms.
 LocalFluxes::Weights LocalFluxes::symmetric(const Subcell& subcell, const Tensor& mobility, int k) const {
-  const double area = 0.5 * (arm_[k][0].dot(subcell.half_face[0]) + arm_[k][1].dot(subcell.half_face[1]));
+  double measure = arm_[k][0].dot(subcell.half_face[0]);
+  for (int i = 1; i < dimension; ++i) measure += arm_[k][i].dot(subcell.half_face[i]);
+  measure /= dimension;
   Weights weights;
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j) weights[i][j] = area * gradient_[k][i].dot(mobility * gradient_[k][j]);
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j) weights[i][j] = measure * gradient_[k][i].dot(mobility * gradient_[k][j]);
   return weights;
 }
 
 LocalFluxes::Stabilizer LocalFluxes::solve(const Mesh& mesh, int node, const InteractionRegion& region,
                                            const std::vector<Tensor>& mobility,
                                            const std::vector<FlowCondition>& conditions) {
-  towards_node_.clear();
-  bool has_triangles_only = true;
-  for (const int face : region.faces) towards_node_.push_back(continuity_point(mesh, face));
+  points_.clear();
+  bool has_simplices_only = true;
+  // Also on walls and on the boundary: with the centre of a wall's face, the flow in a triangle of anisotropic rock may
+  // gain energy.
+  for (const int face : region.faces) points_.push_back(continuity_point(mesh, face, node));
   for (const Subcell& subcell : region.subcells)
-    has_triangles_only = has_triangles_only && is_triangle(mesh, subcell.cell);
-  find_arms(mesh, node, region);
+    has_simplices_only = has_simplices_only && is_simplex(mesh, subcell.cell);
+  find_arms(mesh, region);
   solve_with(&LocalFluxes::consistent, mesh, region, mobility, conditions);
-  if (has_triangles_only || each_subcell_dissipates() || dissipates(region, conditions)) return Stabilizer::none;
+  if (has_simplices_only || each_subcell_dissipates() || dissipates(region, conditions)) return Stabilizer::none;
   return stabilize(mesh, node, region, mobility, conditions);
 }
 
 void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const InteractionRegion& region,
                              const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions) {
   const int subcells = region.subcell_count();
-  SPREKK_EXPECT(static_cast<int>(towards_node_.size()) == region.subface_count(), towards_node_.size());
+  SPREKK_EXPECT(static_cast<int>(points_.size()) == region.subface_count(), points_.size());
   SPREKK_EXPECT(static_cast<int>(arm_.size()) == subcells, arm_.size(), subcells);
   subfaces_ = region.subface_count();
   columns_ = subcells;
@@ -94,17 +83,17 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const Inter
       row[f] = row[boundary_column++] = 1;
       continue;
     }
-    // The fluxes out of the neighbours add up to zero, or to the half of what is prescribed for the face.
+    // The fluxes out of the neighbours add up to zero, or to the share of what is prescribed for the face.
     for (const int k : region.neighbours[f]) {
       SPREKK_ASSERT(k == none || is_index(k, subcells), f, k, subcells);
       if (k == none) continue;
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < dimension; ++i) {
         const double weight = weights_[k][region.place(f, k)][i];
         row[region.subcells[k].subfaces[i]] -= weight;
         row[subfaces_ + k] -= weight;
       }
     }
-    if (!region.is_inner(f)) row[boundary_column++] = 0.5;
+    if (!region.is_inner(f)) row[boundary_column++] = region.shares[f];
   }
   constexpr double singular = 1e-14;  // of the largest entry of a row; smaller pivots are round-off
   if (eliminate(system_.data(), subfaces_, width) < singular) throw unsolvable_region("MPFA", mesh, region, "mobility");
@@ -122,7 +111,7 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const Inter
     }
     const int k = region.neighbours[f][side];
     double* flux = fluxes_.data() + f * columns_;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < dimension; ++i) {
       const double weight = (side == 0 ? -1.0 : 1.0) * weights_[k][region.place(f, k)][i];
       const double* face_pressure = pressure(region.subcells[k].subfaces[i]);
       for (int j = 0; j < columns_; ++j) flux[j] += weight * face_pressure[j];

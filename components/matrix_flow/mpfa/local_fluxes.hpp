@@ -7,6 +7,7 @@
 
 #include "components/matrix_flow/flux_operators.hpp"
 #include "framework/discretization/interaction_region.hpp"
+#include "framework/discretization/subface.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -15,15 +16,16 @@ namespace sprekk::matrix_flow {
 /// pressures of the region's subcells, and then the values of its subfaces with one cell (boundary values for whole
 /// faces). The value of a face with a given pressure is the pressure at its continuity point.
 ///
-/// No flow of a region gains energy: the sum over subcells of flux times pressure drop is not negative. For triangles
-/// and parallelograms, the choice of the continuity points ensures this for any tensor. Where other quadrilaterals
-/// violate it, the local problem is changed (see Stabilizer).
+/// No flow of a region gains energy: the sum over subcells of flux times pressure drop is not negative. For triangles,
+/// parallelograms, tetrahedra, parallelepipeds and wedges with parallel edges the choice of the continuity points
+/// (continuity_point) ensures this for any tensor. Where other cells violate it, the local problem is changed (see
+/// Stabilizer).
 class LocalFluxes {
  public:
   /// The change of a local problem that would gain energy. `points`: other continuity points. `damping`: the part of
   /// the pressures that is not linear flows by the symmetric fluxes of `blend`. Both stay exact for linear pressures.
   /// `blend`: all fluxes are mixed with fluxes that are symmetric and positive definite in each subcell; these are
-  /// exact for linear pressures in parallelograms only.
+  /// exact for linear pressures only in the cells that are named above.
   enum class Stabilizer { none, points, damping, blend };
 
   /// Throws std::runtime_error if the local system is singular.
@@ -32,16 +34,17 @@ class LocalFluxes {
 
   /// The pressure at the continuity point of a subface.
   const double* pressure(int subface) const { return pressures_.data() + subface * columns_; }
-  /// The flux through a subface out of its first cell (m^2/s).
+  /// The flux through a subface out of its first cell (m^2/s; m^3/s in three dimensions).
   const double* flux(int subface) const { return fluxes_.data() + subface * columns_; }
-  /// Where the continuity point lies, from the centre of the face (0) to the node (1).
-  double towards_node(int subface) const { return towards_node_[subface]; }
+  /// Where the pressures of both sides of a subface agree; its part may differ from that of continuity_point.
+  const ContinuityPoint& point(int subface) const { return points_[subface]; }
 
  private:
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  using Weights = std::array<std::array<double, 2>, 2>;  ///< fluxes into a subcell, by both pressure drops
+  /// Fluxes into a subcell, by its pressure drops.
+  using Weights = std::array<std::array<double, dimension>, dimension>;
 
-  void find_arms(const Mesh& mesh, int node, const InteractionRegion& region);
+  void find_arms(const Mesh& mesh, const InteractionRegion& region);
   Weights consistent(const Subcell& subcell, const Tensor& mobility, int k) const;
   Weights symmetric(const Subcell& subcell, const Tensor& mobility, int k) const;
   using WeightsOf = Weights (LocalFluxes::*)(const Subcell&, const Tensor&, int) const;
@@ -52,15 +55,16 @@ class LocalFluxes {
   bool each_subcell_dissipates() const;
   bool dissipates(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
   Matrix dissipation(const InteractionRegion& region, const std::vector<FlowCondition>& conditions) const;
-  /// The jumps of the gradient along the inner subfaces, times the lengths of these subfaces, Pa.
+  /// The jumps of the gradient along the inner subfaces (one in a plane, two directions in space), times the length of
+  /// these subfaces, Pa.
   Matrix kinks(const Mesh& mesh, int node, const InteractionRegion& region) const;
 
   int subfaces_ = 0, columns_ = 0;
   std::vector<double> system_, pressures_, fluxes_;
-  std::vector<double> towards_node_;
-  std::vector<std::array<Point, 2>> arm_;       ///< of the subcells, from the centre to the continuity points, m
-  std::vector<std::array<Point, 2>> gradient_;  ///< of the subcells, as Subcell::gradient
-  std::vector<Weights> weights_;                ///< of the subcells
+  std::vector<ContinuityPoint> points_;                 ///< of the subfaces
+  std::vector<std::array<Point, dimension>> arm_;       ///< of the subcells, from the centre to the points, m
+  std::vector<std::array<Point, dimension>> gradient_;  ///< of the subcells, as Subcell::gradient
+  std::vector<Weights> weights_;                        ///< of the subcells
 };
 
 }  // namespace sprekk::matrix_flow

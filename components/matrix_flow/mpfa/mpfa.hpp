@@ -1,4 +1,4 @@
-// The multi-point flux approximation (MPFA-O) on triangles and convex quadrilaterals.
+// The multi-point flux approximation (MPFA-O) on triangles and convex quadrilaterals, tetrahedra, wedges and hexahedra.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,11 @@
 
 namespace sprekk::matrix_flow {
 
-/// Discretizes the flux by MPFA-O (Aavatsmark 2002), with continuity points as in Klausen, Radu, Eigestad 2008 (1/3 of
-/// the half face from its centre; the centre itself on the boundary).
+/// Discretizes the flux by MPFA-O (Aavatsmark 2002), with the continuity points of continuity_point.
 /// `mobility`: permeability tensor over viscosity of every cell (m^2/(Pa s)). `conditions`: one for each face.
 /// `nodes`: the nodes whose interaction regions are to be discretized; empty means all. Rows of faces with an end
 /// outside `nodes` are then incomplete and must not be used.
-/// Fluxes near the tip of a fracture depend on the pressures of all cells around it, too (TipFlow).
+/// In a plane, fluxes near the tip of a fracture depend on the pressures of all cells around it, too (TipFlow).
 /// Exact for linear pressures on any mesh; the mobility may be discontinuous and anisotropic.
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
                               const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});

@@ -1,4 +1,4 @@
-// Interaction regions with quadrilaterals whose flow would gain energy.
+// Interaction regions with quadrilaterals, wedges or hexahedra whose flow would gain energy.
 #include <algorithm>
 #include <array>
 
@@ -12,7 +12,7 @@ namespace {
 constexpr double round_off = 1e-12;
 /// Of the largest singular value: smaller ones are round-off, not kinks of the pressure.
 constexpr double bends = 1e-9;
-/// Continuity points on faces, from their middle to the node, in the order of their errors.
+/// Continuity points on faces, from their middle to the node (continuity_point), in the order of their errors.
 constexpr std::array other_points = {0.15, 0.0, 1.0 / 3, 0.5};
 /// Factors on the part of the pressures that is not linear, and shares of the symmetric method, from the least change
 /// to the largest.
@@ -39,8 +39,8 @@ LocalFluxes::Matrix LocalFluxes::dissipation(const InteractionRegion& region,
       power.row(first) += flux;
       power.row(second) -= flux;
     } else if (conditions[region.faces[f]] == FlowCondition::flux) {
-      power(first, column) += 0.5;
-      power.row(column++) -= 0.5 * pressure;
+      power(first, column) += region.shares[f];
+      power.row(column++) -= region.shares[f] * pressure;
     } else {
       power.row(first) += flux;
       power.row(column++) -= flux;
@@ -51,8 +51,15 @@ LocalFluxes::Matrix LocalFluxes::dissipation(const InteractionRegion& region,
 
 bool LocalFluxes::each_subcell_dissipates() const {
   return std::all_of(weights_.begin(), weights_.end(), [](const Weights& w) {
-    const double mean = 0.5 * (w[0][1] + w[1][0]);
-    return w[0][0] > 0 && w[0][0] * w[1][1] > mean * mean;
+    const auto mean = [&](int i, int j) { return 0.5 * (w[i][j] + w[j][i]); };
+    const double two = w[0][0] * w[1][1] - mean(0, 1) * mean(0, 1);
+    if constexpr (dimension == 2) {
+      return w[0][0] > 0 && two > 0;
+    } else {
+      const double across = mean(0, 1) * mean(1, 2) - w[1][1] * mean(0, 2),
+                   beside = w[0][0] * mean(1, 2) - mean(0, 1) * mean(0, 2);
+      return w[0][0] > 0 && two > 0 && w[2][2] * two + mean(0, 2) * across - mean(1, 2) * beside > 0;
+    }
   });
 }
 
@@ -64,18 +71,21 @@ bool LocalFluxes::dissipates(const InteractionRegion& region, const std::vector<
 }
 
 LocalFluxes::Matrix LocalFluxes::kinks(const Mesh& mesh, int node, const InteractionRegion& region) const {
-  Matrix kinks = Matrix::Zero(subfaces_, columns_);
+  constexpr int directions = dimension - 1;
+  Matrix kinks = Matrix::Zero(directions * subfaces_, columns_);
   for (int f = 0; f < subfaces_; ++f) {
     if (!region.is_inner(f)) continue;
-    const Point along = mesh.nodes[node] - mesh.face_center[region.faces[f]];
-    for (int side = 0; side < 2; ++side) {
-      const int k = region.neighbours[f][side];
-      for (int i = 0; i < 2; ++i) {
-        const double part = (side == 0 ? 1 : -1) * along.dot(gradient_[k][i]);
-        kinks.row(f) += part * Eigen::Map<const Eigen::RowVectorXd>(pressure(region.subcells[k].subfaces[i]), columns_);
-        kinks(f, k) -= part;
+    const auto along = ways_along_face(mesh, region.faces[f], node);
+    for (int row = 0; row < directions; ++row)
+      for (int side = 0; side < 2; ++side) {
+        const int k = region.neighbours[f][side];
+        for (int i = 0; i < dimension; ++i) {
+          const double part = (side == 0 ? 1 : -1) * along[row].dot(gradient_[k][i]);
+          kinks.row(directions * f + row) +=
+              part * Eigen::Map<const Eigen::RowVectorXd>(pressure(region.subcells[k].subfaces[i]), columns_);
+          kinks(directions * f + row, k) -= part;
+        }
       }
-    }
   }
   return kinks;
 }
@@ -83,17 +93,17 @@ LocalFluxes::Matrix LocalFluxes::kinks(const Mesh& mesh, int node, const Interac
 LocalFluxes::Stabilizer LocalFluxes::stabilize(const Mesh& mesh, int node, const InteractionRegion& region,
                                                const std::vector<Tensor>& mobility,
                                                const std::vector<FlowCondition>& conditions) {
-  const std::vector<double> points = towards_node_;
-  // Continuity points on walls and sides stay, since both halves of such a face share their point.
+  const std::vector<ContinuityPoint> points = points_;
+  // Continuity points on walls and sides stay, since all parts of such a face share what is given there.
   for (const double other : other_points) {
     for (int f = 0; f < subfaces_; ++f)
-      if (region.is_inner(f)) towards_node_[f] = other;
-    find_arms(mesh, node, region);
+      if (region.is_inner(f)) points_[f].part = other;
+    find_arms(mesh, region);
     solve_with(&LocalFluxes::consistent, mesh, region, mobility, conditions);
     if (dissipates(region, conditions)) return Stabilizer::points;
   }
-  towards_node_ = points;
-  find_arms(mesh, node, region);
+  points_ = points;
+  find_arms(mesh, region);
   solve_with(&LocalFluxes::consistent, mesh, region, mobility, conditions);
   const std::vector<double> exact_pressures = pressures_, exact_fluxes = fluxes_;
   const Eigen::MatrixXd kinks = this->kinks(mesh, node, region);

@@ -6,7 +6,7 @@
 
 #include "components/matrix_flow/flux_operators.hpp"
 #include "framework/assembly/notes.hpp"
-#include "framework/discretization/uncorrected_ends.hpp"
+#include "framework/discretization/plane/uncorrected_ends.hpp"
 
 namespace sprekk::matrix_flow {
 

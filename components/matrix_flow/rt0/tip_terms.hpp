@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "components/matrix_flow/mpfa/tip_flow.hpp"
+#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
 #include "components/matrix_flow/rt0/flux_mass.hpp"
 
 namespace sprekk::matrix_flow {

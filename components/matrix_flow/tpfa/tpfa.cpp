@@ -1,6 +1,9 @@
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 
+#include <algorithm>
+
 #include "components/matrix_flow/check_conditions.hpp"
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
@@ -23,8 +26,8 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
   std::vector<Triplet> flux_cell, flux_boundary, trace_cell, trace_boundary;
   flux_cell.reserve(2 * mesh.face_count());
   for (int face = 0; face < mesh.face_count(); ++face) {
-    const auto [a, b] = mesh.face_nodes[face];
-    if (!nodes.empty() && !(nodes[a] && nodes[b])) continue;
+    const FaceNodes& ends = mesh.face_nodes[face];
+    if (!nodes.empty() && !std::ranges::all_of(ends, [&](int node) { return nodes[node] != 0; })) continue;
     const auto [cell, other] = mesh.face_cells[face];
     const double half = half_transmissibility(mesh, mobility[cell], cell, face);
     SPREKK_ASSERT(half > 0, face, cell, half);
@@ -54,14 +57,14 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   };
-  const auto nothing = [&] { return SparseMatrix(mesh.face_count(), mesh.face_count()); };
+  const auto nothing = [&](int columns) { return SparseMatrix(mesh.face_count(), columns * mesh.face_count()); };
   return {assemble(flux_cell, mesh.cell_count()),
           assemble(flux_boundary, mesh.face_count()),
-          nothing(),
+          nothing(directions_of_faces),
           assemble(trace_cell, mesh.cell_count()),
           assemble(trace_boundary, mesh.face_count()),
-          nothing(),
-          nothing()};
+          nothing(directions_of_faces),
+          nothing(1)};
 }
 
 }  // namespace sprekk::matrix_flow

@@ -1,4 +1,4 @@
-// The two-point flux approximation on triangles and quadrilaterals.
+// The two-point flux approximation.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // Numbers on which the discretization of the stress depends.
 #pragma once
 
-#include "framework/discretization/end_zones.hpp"
+#include "framework/discretization/plane/end_zones.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -118,13 +118,13 @@ void LocalStresses::find_jumps(const InteractionRegion& region, const std::vecto
     if (!region.is_inner(f)) continue;
     const auto [first, second] = region.neighbours[f];
     const Subcell &one = region.subcells[first], &other = region.subcells[second];
-    SPREKK_ASSERT(one.area > 0 && other.area > 0, one.cell, other.cell);
+    SPREKK_ASSERT(one.measure > 0 && other.measure > 0, one.cell, other.cell);
     const Kink kink(one.half_face[region.place(f, first)], stiffness[one.cell], stiffness[other.cell]);
     jump_[f] = {kink.rotation(), {0, 0}};
     dilation_[f] = kink.dilation();
     // The strength of the softer rock: with more, its error for a field that is not linear would load the stiffer rock.
-    const double strengths[2] = {one.area * shear_modulus(stiffness[one.cell]),
-                                 other.area * shear_modulus(stiffness[other.cell])};
+    const double strengths[2] = {one.measure * shear_modulus(stiffness[one.cell]),
+                                 other.measure * shear_modulus(stiffness[other.cell])};
     const double both = 2 * strengths[0] * strengths[1] / (strengths[0] + strengths[1]);
     SPREKK_ASSERT(both > 0, one.cell, other.cell, both);
     for (int side = 0; side < 2; ++side)
@@ -218,7 +218,7 @@ Point LocalStresses::couple_on(const InteractionRegion& region, int subface, int
   const int side = region.neighbours[subface][0] == subcell ? 0 : 1;
   SPREKK_ASSERT(region.neighbours[subface][side] == subcell, subface, subcell);
   const GradientRow& stress = jump_[subface].of_gradient[side];
-  return jump_[subface].strength[side] / region.subcells[subcell].area *
+  return jump_[subface].strength[side] / region.subcells[subcell].measure *
          Point(half_face[0] * stress[0] + half_face[1] * stress[1],
                half_face[0] * stress[2] + half_face[1] * stress[3]);
 }
@@ -237,8 +237,8 @@ void LocalStresses::find_gradients(const InteractionRegion& region) {
       }
     const double* gradient = gradients_.data() + 4 * k * columns_;
     double* volume = volumes_.data() + k * columns_;
-    add_scaled(volume, subcell.area, gradient, columns_);
-    add_scaled(volume, subcell.area, gradient + 3 * columns_, columns_);
+    add_scaled(volume, subcell.measure, gradient, columns_);
+    add_scaled(volume, subcell.measure, gradient + 3 * columns_, columns_);
   }
   turns_.assign(subfaces_ * columns_, 0);
   for (int f = 0; f < subfaces_; ++f) {

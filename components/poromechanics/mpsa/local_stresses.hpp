@@ -9,8 +9,8 @@
 #include "components/poromechanics/mpsa/volume_exchange.hpp"
 #include "components/poromechanics/mpsa/weak_symmetry.hpp"
 #include "components/poromechanics/stress_operators.hpp"
-#include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/interaction_region.hpp"
+#include "framework/discretization/plane/end_zones.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -8,9 +8,9 @@
 
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 #include "components/poromechanics/mpsa/tip_correction.hpp"
-#include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/interaction_region.hpp"
 #include "framework/discretization/node_stencil.hpp"
+#include "framework/discretization/plane/end_zones.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -4,8 +4,8 @@
 
 #include "components/poromechanics/mpsa/local_stresses.hpp"
 #include "components/poromechanics/mpsa/mpsa.hpp"
-#include "framework/discretization/end_zones.hpp"
 #include "framework/discretization/kept_regions.hpp"
+#include "framework/discretization/plane/end_zones.hpp"
 
 namespace sprekk::poromechanics {
 

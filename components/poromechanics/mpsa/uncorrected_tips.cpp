@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "components/poromechanics/mpsa/tip_field.hpp"
-#include "framework/discretization/end_surroundings.hpp"
-#include "framework/discretization/end_zones.hpp"
+#include "framework/discretization/plane/end_surroundings.hpp"
+#include "framework/discretization/plane/end_zones.hpp"
 
 namespace sprekk::poromechanics {
 namespace {

@@ -23,7 +23,7 @@ void VolumeExchange::assign(const Mesh& mesh, const InteractionRegion& region, c
     const auto [first, second] = region.neighbours[subfaces[i]];
     const Subcell &one = region.subcells[first], &other = region.subcells[second];
     const double moduli[2] = {p_wave_modulus(stiffness[one.cell]), p_wave_modulus(stiffness[other.cell])};
-    const double least = std::min(one.area / moduli[0], other.area / moduli[1]);
+    const double least = std::min(one.measure / moduli[0], other.measure / moduli[1]);
     root_[i] = std::sqrt(most * least * std::min(moduli[0], moduli[1]) / modulus(dilation[subfaces[i]]));
     slope_.row(i) = root_[i] * (mesh.cell_center[one.cell] - mesh.cell_center[other.cell]).transpose();
   }

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "framework/mesh/plane/cell_mean.hpp"
+#include "framework/mesh/cell_mean.hpp"
 #include "tests/components/poromechanics/biot_step.hpp"
 
 namespace sprekk {

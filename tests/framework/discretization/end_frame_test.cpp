@@ -1,5 +1,5 @@
 // On which side of a fracture that kinks points lie, and their polar coordinates around its end.
-#include "framework/discretization/end_frame.hpp"
+#include "framework/discretization/plane/end_frame.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "framework/discretization/end_surroundings.hpp"
+#include "framework/discretization/plane/end_surroundings.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"

@@ -1,4 +1,4 @@
-#include "framework/discretization/end_surroundings.hpp"
+#include "framework/discretization/plane/end_surroundings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Zones around the ends of fractures are continuous in the shape of the mesh.
-#include "framework/discretization/end_zones.hpp"
+#include "framework/discretization/plane/end_zones.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "framework/discretization/end_surroundings.hpp"
+#include "framework/discretization/plane/end_surroundings.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"

@@ -1,4 +1,4 @@
-#include "framework/discretization/end_frame.hpp"
+#include "framework/discretization/plane/end_frame.hpp"
 
 #include <algorithm>
 #include <cmath>

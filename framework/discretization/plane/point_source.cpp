@@ -1,4 +1,4 @@
-#include "framework/discretization/point_source.hpp"
+#include "framework/discretization/plane/point_source.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "components/matrix_flow/mpfa/tip_flow.hpp"
+#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
-#include "components/matrix_flow/mpfa/tip_flow.hpp"
+#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
 #include "framework/discretization/interaction_region.hpp"
 
 namespace sprekk::matrix_flow {

@@ -1,10 +1,10 @@
-#include "components/matrix_flow/mpfa/tip_energy.hpp"
+#include "components/matrix_flow/mpfa/plane/tip_energy.hpp"
 
 #include <array>
 #include <map>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
-#include "components/matrix_flow/mpfa/tip_correction.hpp"
+#include "components/matrix_flow/mpfa/plane/tip_correction.hpp"
 #include "framework/dense/cholesky.hpp"
 #include "framework/discretization/interaction_region.hpp"
 

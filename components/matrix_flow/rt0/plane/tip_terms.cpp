@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "components/matrix_flow/cells_around_tips.hpp"
-#include "components/matrix_flow/mpfa/tip_energy.hpp"
+#include "components/matrix_flow/mpfa/plane/tip_energy.hpp"
+#include "components/matrix_flow/plane/cells_around_tips.hpp"
 #include "framework/dense/cholesky.hpp"
-#include "framework/discretization/ends_nearby.hpp"
+#include "framework/discretization/plane/ends_nearby.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {

@@ -1,13 +1,13 @@
-#include "framework/discretization/end_zones.hpp"
+#include "framework/discretization/plane/end_zones.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "framework/discretization/end_frame.hpp"
-#include "framework/discretization/end_surroundings.hpp"
-#include "framework/discretization/ends_nearby.hpp"
+#include "framework/discretization/plane/end_frame.hpp"
+#include "framework/discretization/plane/end_surroundings.hpp"
+#include "framework/discretization/plane/ends_nearby.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/search/segment_tree.hpp"
 

@@ -1,4 +1,4 @@
-#include "components/matrix_flow/mpfa/tip_correction.hpp"
+#include "components/matrix_flow/mpfa/plane/tip_correction.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -38,7 +38,7 @@ TipFlow::Modes TipCorrection::flux(int face, const Point& from, const Point& to,
 
 Point TipCorrection::continuity_point(int subface) const {
   const Point& middle = mesh_.face_center[region_.faces[subface]];
-  return middle + local_.towards_node(subface) * (node_ - middle);
+  return middle + local_.point(subface).part * (node_ - middle);
 }
 
 TipFlow::Modes TipCorrection::of_flux(int subface) const {

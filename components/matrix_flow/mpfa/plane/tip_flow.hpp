@@ -8,7 +8,7 @@
 
 #include "components/matrix_flow/flux_operators.hpp"
 #include "components/matrix_flow/mpfa/limits.hpp"
-#include "framework/discretization/end_frame.hpp"
+#include "framework/discretization/plane/end_frame.hpp"
 #include "framework/mesh/adjacency.hpp"
 
 namespace sprekk::matrix_flow {

@@ -1,9 +1,9 @@
-#include "framework/discretization/ends_nearby.hpp"
+#include "framework/discretization/plane/ends_nearby.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "framework/discretization/end_surroundings.hpp"
+#include "framework/discretization/plane/end_surroundings.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "components/matrix_flow/cells_around_tips.hpp"
-#include "components/matrix_flow/mpfa/tip_flow.hpp"
-#include "framework/discretization/end_surroundings.hpp"
-#include "framework/discretization/ends_nearby.hpp"
+#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
+#include "components/matrix_flow/plane/cells_around_tips.hpp"
+#include "framework/discretization/plane/end_surroundings.hpp"
+#include "framework/discretization/plane/ends_nearby.hpp"
 #include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk::matrix_flow {

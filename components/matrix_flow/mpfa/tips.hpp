@@ -1,0 +1,37 @@
+// What the ends of fractures change in local problems.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "components/matrix_flow/mpfa/limits.hpp"
+#include "components/matrix_flow/mpfa/local_fluxes.hpp"
+#include "framework/mesh/adjacency.hpp"
+
+namespace sprekk::matrix_flow {
+
+/// Fluxes and pressures of local problems by the pressures of cells. In a plane the singular flow around the tips of
+/// fractures is added near them (TipFlow, TipCorrection), by the pressures of all cells around a tip; in space nothing.
+class Tips {
+ public:
+  /// `nodes`: those that are discretized; empty means all. The mesh and what describes it outlive the tips.
+  Tips(const MpfaLimits& limits, const Mesh& mesh, const std::vector<Tensor>& mobility,
+       const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes);
+
+  /// The cells whose pressures enter the local problem of each node, ascending.
+  const Adjacency& cells_of_nodes() const;
+
+  /// Takes the local problem of a node, which is solved and outlives the use of its coefficients.
+  void assign(int node, const InteractionRegion& region, const LocalFluxes& local);
+  /// Coefficients of LocalFluxes with respect to cells_of_nodes.
+  const double* flux(int subface);
+  const double* pressure(int subface);
+
+ private:
+  struct Content;
+  const Mesh& mesh_;
+  const LocalFluxes* local_ = nullptr;
+  std::shared_ptr<Content> content_;  ///< in a plane
+};
+
+}  // namespace sprekk::matrix_flow

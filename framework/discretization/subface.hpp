@@ -1,0 +1,39 @@
+// The parts of a face next to its nodes, in which multi-point methods take fluxes.
+#pragma once
+
+#include <array>
+
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// The share of a face that is next to one of its nodes: a half in a plane, a third of a triangle; of a quadrilateral
+/// what lies between the node, the middles of its edges there and the mean of its nodes, as seen along its normal. The
+/// shares of a face add up to 1.
+double share_at_node(const Mesh& mesh, int face, int node);
+
+/// Where the values of both sides of a face agree near one of its nodes: at centre + part · way. With the arms from the
+/// centre of a cell to these points dual to its area vectors at the node, fluxes are symmetric in drops of the
+/// potential, and positive, for any tensor (Klausen, Radu and Eigestad, Int. J. Numer. Meth. Fluids 58 (2008) 1327).
+/// This holds for all cells named below but for `other`; the mean of the points, by the shares, is the centre.
+///   edge of a triangle, in a plane: a third of the way to the node;
+///   face of a tetrahedron: a quarter of the way to the node;
+///   quadrilateral of a wedge with parallel edges: a third of the way to the edge between the wedge's triangles;
+///   edge of a parallelogram, face of a parallelepiped, triangle of such a wedge, other: the centre.
+/// A face between cells of different kinds has the point of the first kind here that is beside it.
+struct ContinuityPoint {
+  Point way;    ///< from the centre of the face to the node, or to the middle of the edge, m
+  double part;  ///< 0 to 1
+};
+ContinuityPoint continuity_point(const Mesh& mesh, int face, int node);
+
+/// Ways along a face, m: in a plane from its centre to the node, in space another one of this length across it, too.
+std::array<Point, dimension - 1> ways_along_face(const Mesh& mesh, int face, int node);
+
+/// The measure of the part of a cell next to a node, m^2 (m^3 in three dimensions). In a plane between the centre, the
+/// node and the centres of both faces there; in space between the centre and the area vectors at the node (`subfaces`,
+/// out of the cell), so that the parts of a cell with flat faces add up to it.
+double subcell_measure(const Point& center, const Point& node, const std::array<Point, dimension>& face_centers,
+                       const std::array<Point, dimension>& subfaces);
+
+}  // namespace sprekk
