@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "framework/discretization/plane/along_fracture.hpp"
+#include "framework/discretization/along_fracture.hpp"
 #include "framework/discretization/quadratic_fit.hpp"
 #include "framework/field/component_names.hpp"
 #include "framework/field/weights_in_cell.hpp"

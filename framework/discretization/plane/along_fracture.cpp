@@ -1,4 +1,4 @@
-#include "framework/discretization/plane/along_fracture.hpp"
+#include "framework/discretization/along_fracture.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Values along fractures: exact for quadratic ones, continuous, and never across a crossing.
-#include "framework/discretization/plane/along_fracture.hpp"
+#include "framework/discretization/along_fracture.hpp"
 
 #include <gtest/gtest.h>
 

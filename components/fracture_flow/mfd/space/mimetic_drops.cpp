@@ -1,0 +1,47 @@
+#include "components/fracture_flow/tpfa/mimetic_drops.hpp"
+
+#include <algorithm>
+
+#include "framework/invariants.hpp"
+#include "framework/mesh/ridge_distance.hpp"
+
+namespace sprekk::fracture_flow {
+namespace {
+
+Eigen::MatrixXd beside_two_point_fluxes(const Mesh& mesh, int cell) {
+  const FractureCell& of = mesh.fracture_cells[cell];
+  const auto count = static_cast<Eigen::Index>(of.ridges.size());
+  Eigen::MatrixXd midpoints(count, dimension - 1), normals(count, dimension - 1);
+  Vector h(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const int ridge = of.ridges[static_cast<std::size_t>(k)];
+    const Point out = mesh.ridges[ridge].center - of.center;
+    midpoints.row(k) = out.transpose() * of.tangents;
+    h[k] = distance_to_ridge(mesh, cell, ridge) / mesh.ridges[ridge].measure;
+  }
+  const FaceNodes& corners = mesh.face_nodes[of.faces[0]];
+  for (int k = 0; k < corners.size(); ++k) {
+    const Point &from = mesh.nodes[corners[k]], &to = mesh.nodes[corners.after(k)];
+    const auto is_here = [&](int ridge) { return mesh.ridges[ridge].center == 0.5 * (from + to); };
+    const Eigen::Index place = std::ranges::find_if(of.ridges, is_here) - of.ridges.begin();
+    SPREKK_ASSERT(place < count, cell, k);
+    const TangentialVector edge = of.tangents.transpose() * (to - from);
+    const Eigen::RowVector2d normal(edge[1], -edge[0]);
+    normals.row(place) = midpoints.row(place).dot(normal) < 0 ? -normal : normal;
+  }
+  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(count, count) - normals * midpoints.transpose() / of.measure;
+  Eigen::MatrixXd g = midpoints * midpoints.transpose() / of.measure + rest.transpose() * h.asDiagonal() * rest;
+  g.diagonal() -= h;
+  constexpr double round_off = 1e-14;
+  return (g.cwiseAbs().array() < round_off * h.maxCoeff()).select(0, g);
+}
+
+}  // namespace
+
+MimeticDrops::MimeticDrops(const Mesh& mesh) : mesh_(&mesh), junction_of_ridge_(mesh.ridges.size(), none) {
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) of_cell_.push_back(beside_two_point_fluxes(mesh, i));
+  for (std::size_t j = 0; j < mesh.junctions.size(); ++j)
+    for (const int ridge : mesh.junctions[j].ridges) junction_of_ridge_[ridge] = static_cast<int>(j);
+}
+
+}  // namespace sprekk::fracture_flow
