@@ -14,7 +14,8 @@ inline std::string distinct_text(const Point& point, const Point& other) {
   const auto text_of = [](const Point& x, int digits) {
     std::ostringstream out;
     out.precision(digits);
-    out << '(' << x.x() << ", " << x.y() << ')';
+    for (int i = 0; i < dimension; ++i) out << (i == 0 ? "(" : ", ") << x[i];
+    out << ')';
     return out.str();
   };
   int digits = std::numeric_limits<float>::digits10;

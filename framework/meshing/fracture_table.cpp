@@ -1,6 +1,7 @@
 #include "framework/meshing/fracture_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,12 +10,16 @@
 #include "framework/config/csv_rows.hpp"
 #include "framework/config/number.hpp"
 #include "framework/config/text_file.hpp"
+#include "framework/meshing/place_from_row.hpp"
 
 namespace sprekk {
 namespace {
 
 const std::vector<std::string>& columns_of_geometry() {
-  static const std::vector<std::string> known = {"name", "size", "x1", "y1", "x2", "y2", "x", "y"};
+  static const std::vector<std::string> known =
+      dimension == 2 ? std::vector<std::string>{"name", "size", "x1", "y1", "x2", "y2", "x", "y"}
+                     : std::vector<std::string>{"name", "size",   "x",      "y",      "z",
+                                                "strike", "dip", "length", "height", "radius"};
   return known;
 }
 
@@ -23,6 +28,9 @@ bool is_geometry(const std::string& column) {
   return std::find(known.begin(), known.end(), column) != known.end();
 }
 
+/// The column that only tables with a row for each fracture have.
+const std::string is_single = dimension == 2 ? "x1" : "strike";
+
 class TableReader {
  public:
   explicit TableReader(const FractureTable& table) : table_(table) {}
@@ -30,11 +38,13 @@ class TableReader {
   std::vector<FractureGeometry> read() {
     csv_ = split_csv(content());
     if (csv_.headings.empty())
-      throw refused("has no headings", "its columns are known by them", "begin it with the line 'x1,y1,x2,y2'");
+      throw refused("has no headings", "its columns are known by them",
+                    std::string("begin it with the line '") +
+                        (dimension == 2 ? "x1,y1,x2,y2'" : "x,y,z,strike[deg],dip[deg],radius'"));
     require_table(csv_, table_.file);
     check_columns();
     if (csv_.rows.empty()) throw refused("has headings only", "it needs a row for each fracture or point", "add rows");
-    return find("x1") ? segments() : polylines();
+    return find(is_single) ? singles() : of_points();
   }
 
  private:
@@ -52,12 +62,26 @@ class TableReader {
   }
 
   void check_columns() const {
+    if (dimension == 3) return check_columns_in_space();
     const bool has_ends = find("x1") && find("y1") && find("x2") && find("y2");
     const bool has_points = find("name") && find("x") && find("y");
     if (has_ends != has_points) return;
     throw refused(has_ends ? "has ends and points" : "lacks columns",
                   "straight fractures have x1, y1, x2, y2, and points of polylines have name, x, y",
                   "give it one of the two sets of columns");
+  }
+
+  void check_columns_in_space() const {
+    const auto has = [this](std::initializer_list<const char*> names) {
+      return std::ranges::all_of(names, [this](const char* name) { return find(name).has_value(); });
+    };
+    const bool has_plane = has({"x", "y", "z", "strike", "dip"}), has_points = has({"name", "x", "y", "z"}) && !find("strike");
+    const bool is_sized = has({"length", "height"}) != has({"radius"});
+    if ((has_plane && is_sized) || (has_points && !find("dip"))) return;
+    throw refused("lacks columns",
+                  "fractures have x, y, z, strike, dip and either length, height or radius, and points of polygons have "
+                  "name, x, y, z",
+                  "give it one of these sets of columns");
   }
 
   std::optional<std::size_t> find(const std::string& name) const {
@@ -100,15 +124,24 @@ class TableReader {
     return fracture;
   }
 
-  std::vector<FractureGeometry> segments() const {
+  /// Fractures with a row each.
+  std::vector<FractureGeometry> singles() const {
     std::vector<FractureGeometry> fractures;
     for (const CsvRow& row : csv_.rows) {
       const std::string number = fmt::format("{}_{}", table_.set, fractures.size() + 1);
       fractures.push_back(fracture(row, find("name") ? cell(row, "name") : number));
-      fractures.back().points = {Point(length(row, "x1"), length(row, "y1")),
-                                 Point(length(row, "x2"), length(row, "y2"))};
+      const auto value = [&](const std::string& column, const std::string& unit) {
+        return this->number(row, column) * heading_scale(csv_.headings[*find(column)], unit, table_.file);
+      };
+      place_from_row(value, [this](const std::string& column) { return find(column).has_value(); }, fractures.back());
     }
     return fractures;
+  }
+
+  Point point(const CsvRow& row) const {
+    Point point;
+    for (int axis = 0; axis < dimension; ++axis) point[axis] = length(row, std::string(1, "xyz"[axis]));
+    return point;
   }
 
   /// Refuses a row of a polyline that has other values than its first row: there is one value for a fracture.
@@ -122,7 +155,8 @@ class TableReader {
       if (row.values[i].value != first.values[i].value) refuse(row.values[i].column);
   }
 
-  std::vector<FractureGeometry> polylines() const {
+  /// Polylines, or polygons, with a row for each point.
+  std::vector<FractureGeometry> of_points() const {
     std::vector<FractureGeometry> fractures;
     for (const CsvRow& row : csv_.rows) {
       const std::string& name = cell(row, "name");
@@ -131,7 +165,7 @@ class TableReader {
         fractures.push_back(read);
       else
         require_same(fractures.back(), read);
-      fractures.back().points.push_back(Point(length(row, "x"), length(row, "y")));
+      fractures.back().points.push_back(point(row));
     }
     return fractures;
   }
@@ -164,10 +198,13 @@ void require_writable_name(const FractureGeometry& fracture) {
 
 std::string fracture_table(const std::vector<FractureGeometry>& fractures) {
   if (fractures.empty()) throw InputError("there are no fractures (the scene has none, or a mesh file holds them)");
-  const bool are_straight = std::ranges::all_of(fractures, [](const auto& f) { return f.points.size() == 2; });
+  const bool are_straight =
+      dimension == 2 && std::ranges::all_of(fractures, [](const auto& f) { return f.points.size() == 2; });
   const bool have_sizes = std::ranges::all_of(fractures, [](const auto& f) { return f.size.has_value(); });
   const std::vector<std::string> columns = common_columns(fractures);
-  std::string text = are_straight ? "name,x1[m],y1[m],x2[m],y2[m]" : "name,x[m],y[m]";
+  std::string text = are_straight     ? "name,x1[m],y1[m],x2[m],y2[m]"
+                     : dimension == 2 ? "name,x[m],y[m]"
+                                      : "name,x[m],y[m],z[m]";
   if (have_sizes) text += ",size[m]";
   for (const ColumnValue& value : fractures.front().values)
     if (std::ranges::count(columns, value.column))
@@ -175,6 +212,9 @@ std::string fracture_table(const std::vector<FractureGeometry>& fractures) {
   text += "\n";
   for (const FractureGeometry& fracture : fractures) {
     require_writable_name(fracture);
+    if (fracture.ellipse)
+      throw InputError(fracture.origin, "fracture '" + fracture.name + "' is an ellipse",
+                       "a table of points holds polygons", "leave it out");
     std::string further;
     if (have_sizes) further += fmt::format(",{}", *fracture.size);
     for (const std::string& column : columns)
@@ -185,7 +225,7 @@ std::string fracture_table(const std::vector<FractureGeometry>& fractures) {
                           points[1].y(), further);
     else
       for (const Point& point : points)
-        text += fmt::format("{},{},{}{}\n", fracture.name, point.x(), point.y(), further);
+        text += fmt::format("{},{}{}\n", fracture.name, fmt::join(point, ","), further);
   }
   return text;
 }

@@ -5,7 +5,7 @@
 #include "framework/meshing/number_in_space.hpp"
 #include "framework/meshing/read_msh.hpp"
 #include "framework/meshing/regions.hpp"
-#include "framework/meshing/single_cell_corners.hpp"
+#include "framework/meshing/plane/single_cell_corners.hpp"
 #include "framework/meshing/structured_mesh.hpp"
 #include "framework/meshing/unstructured_mesh.hpp"
 #include "framework/meshing/validate_geometry.hpp"
@@ -20,9 +20,10 @@ RawMesh triangulate(const Geometry& geometry, const MeshOptions& options) {
 }
 
 Mesh finish(RawMesh raw, const Geometry& geometry, const MeshOptions& options) {
-  avoid_single_cell_corners(raw);
+  // In space validate_geometry refuses a distortion, and tetrahedra in corners stay.
+  if constexpr (dimension == 2) avoid_single_cell_corners(raw);
   const std::vector<Point> places = raw.nodes;
-  distort_mesh(raw, options.distortion, options.seed);
+  if constexpr (dimension == 2) distort_mesh(raw, options.distortion, options.seed);
   // A distorted mesh is numbered like the mesh before the distortion. Structured meshes keep their numbers, which
   // follow the grid lines.
   if (geometry.is_imported() || options.kind == MeshOptions::Kind::unstructured) number_in_space(raw, places);

@@ -5,7 +5,7 @@
 namespace sprekk {
 
 double far_size(const Geometry& geometry, const MeshOptions& options) {
-  constexpr double cells_across = 50;  // of the longer side: where a scene says nothing about sizes
+  constexpr double cells_across = dimension == 2 ? 50 : 20;  // of the longer side: where a scene says nothing about sizes
   return options.size.value_or(geometry.box.size().maxCoeff() / cells_across);
 }
 
@@ -28,6 +28,14 @@ double shortest_size(const Geometry& geometry, const MeshOptions& options) {
 double snap_length(const Geometry& geometry, const MeshOptions& options) {
   constexpr double part_of_cell = 0.01;  // as paths of growing fractures are moved onto sides and others
   return geometry.snap.value_or(part_of_cell * shortest_size(geometry, options));
+}
+
+double extent_of(const FractureGeometry& fracture) {
+  if (fracture.ellipse) return 2 * std::max(fracture.ellipse->one_axis.norm(), fracture.ellipse->other_axis.norm());
+  double extent = 0;
+  for (const Point& one : fracture.points)
+    for (const Point& other : fracture.points) extent = std::max(extent, (one - other).norm());
+  return extent;
 }
 
 double point_tolerance(const Box& box) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,33 +14,56 @@
 
 namespace sprekk {
 
-/// An axis-parallel rectangle from `low` to `high`, m.
+/// An axis-parallel rectangle, or box in space, from `low` to `high`, m.
 struct Box {
   Point low = Point::Zero(), high = Point::Zero();
   Origin origin;
   Point size() const { return high - low; }
 };
 
-/// A fracture as a polyline. Its plus side is to the left on the way from the first point to the last.
+/// A flat ellipse in space, m. Its normal is one_axis × other_axis.
+struct Ellipse {
+  Point center, one_axis, other_axis;  ///< half axes at right angles
+};
+
+/// A fracture. In a plane it is a polyline, whose plus side is to the left on the way from the first point to the last.
+/// In space it is a flat simple polygon, or an ellipse; the plus side is that from which its points turn clockwise, so
+/// that the normal of the polygon points to the minus side.
 struct FractureGeometry {
   std::string name;
-  std::vector<Point> points;                  ///< m
+  std::vector<Point> points;                  ///< m; none of an ellipse
   std::optional<double> size = std::nullopt;  ///< length of its cells, m; default MeshOptions::fracture_size
   Origin origin;
   std::vector<ColumnValue> values = {};  ///< further columns of its table
+  std::optional<Ellipse> ellipse = std::nullopt;  ///< in space, instead of points
 };
 
-/// A part of the box with a name, for properties of its own.
+/// What lies on the side of a plane into which `normal` (of any length) points.
+struct HalfSpace {
+  Point point, normal;
+};
+
+/// A part of the box with a name, for properties of its own. In a plane it is a polygon; in space it is what all of its
+/// half-spaces have in common with what lies between its surfaces.
 struct RegionGeometry {
   std::string name;
   std::vector<Point> polygon;  ///< m, simple, either orientation, not closed by a repeated point
   Origin origin;
+  std::vector<HalfSpace> half_spaces = {};  ///< in space; the mesh conforms to their planes
+  /// In space the height z (m) of its bottom and of its top at (x, y), or null; the mesh does not conform to them.
+  std::function<double(double, double)> bottom = nullptr, top = nullptr;
 };
 
-inline constexpr std::array<const char*, 4> box_sides = {"left", "right", "bottom", "top"};
+/// The sides of a box, in the order of their axes: that of the smallest coordinate, then that of the largest.
+inline constexpr auto box_sides = [] {
+  if constexpr (dimension == 2)
+    return std::array<const char*, 4>{"left", "right", "bottom", "top"};
+  else
+    return std::array<const char*, 6>{"left", "right", "front", "back", "bottom", "top"};
+}();
 
-/// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is what no polygon
-/// covers; its name is medium_name(). Where polygons overlap, the later polygon counts.
+/// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is what no region
+/// covers; its name is medium_name(). Where regions overlap, the later one counts.
 struct Geometry {
   Box box;
   std::string file;  ///< a mesh that gmsh reads, or "" for a box
@@ -55,13 +79,14 @@ struct Geometry {
 
 /// Parameters of a scene's `mesh:`.
 struct MeshOptions {
-  /// Triangulated by gmsh, or a grid of rectangles.
+  /// Triangles or tetrahedra by gmsh, or a grid.
   enum class Kind { unstructured, structured };
   Kind kind = Kind::unstructured;
   /// The shape of the cells.
-  enum class Shape { triangles, quadrilaterals };
-  Shape shape = Shape::triangles;  ///< unstructured quadrilaterals leave some triangles between them
-  /// Edge length away from fractures, m; default a fiftieth of the longer side.
+  enum class Shape { triangles, quadrilaterals, tetrahedra, wedges, hexahedra };
+  /// Unstructured quadrilaterals leave some triangles between them.
+  Shape shape = dimension == 2 ? Shape::triangles : Shape::tetrahedra;
+  /// Edge length away from fractures, m; default a fiftieth of the longer side, a twentieth in space.
   std::optional<double> size = std::nullopt;
   std::optional<double> fracture_size = std::nullopt;  ///< edge length at fractures, m; default `size`
   std::optional<double> tip_size = std::nullopt;  ///< edge length at fracture ends, m; default that of the fracture
@@ -72,7 +97,7 @@ struct MeshOptions {
   double gap_length = 2;  ///< gaps between parallel walls are not refined if longer than so many times their width
   std::optional<double> gap_size =
       std::nullopt;                   ///< least edge length in gaps, m; default a 500th of the shortest size
-  std::array<int, 2> cells = {0, 0};  ///< structured: rectangles along x and y; 0: as many as `size` gives
+  std::array<int, dimension> cells = {};  ///< structured: along each axis; 0: as many as `size` gives
   double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge at the node, 0 to 0.4
   int seed = 1;           ///< of the random distortion
   Division division = Division::compact;  ///< among processes
@@ -91,6 +116,9 @@ double shortest_size(const Geometry& geometry, const MeshOptions& options);
 /// Lines and points that are nearer to one another are joined, m: as the geometry says, by default a hundredth of the
 /// shortest size.
 double snap_length(const Geometry& geometry, const MeshOptions& options);
+
+/// The longest distance between two points of a fracture, or the longer axis of an ellipse, m.
+double extent_of(const FractureGeometry& fracture);
 
 /// Points nearer than this are one point.
 double point_tolerance(const Box& box);

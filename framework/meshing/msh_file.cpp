@@ -14,8 +14,8 @@ namespace {
 
 const std::string save_again = "save it with 'gmsh FILE -save -format msh41 -o NEW.msh'";
 
-/// An element type of gmsh, if its edges are straight and it lies in a plane: dimension and number of nodes; 0 nodes
-/// for all other types.
+/// An element type of gmsh, if its edges are straight and it may be part of a mesh: dimension and number of nodes; 0
+/// nodes for all other types.
 struct Kind {
   int dimension, node_count;
 };
@@ -27,6 +27,12 @@ Kind kind_of(int type) {
       return {2, 3};
     case 3:
       return {2, 4};
+    case 4:
+      return dimension == 3 ? Kind{3, 4} : Kind{0, 0};
+    case 5:
+      return dimension == 3 ? Kind{3, 8} : Kind{0, 0};
+    case 6:
+      return dimension == 3 ? Kind{3, 6} : Kind{0, 0};
     case 15:
       return {0, 1};
     default:
@@ -34,6 +40,7 @@ Kind kind_of(int type) {
   }
 }
 
+constexpr int pyramid = 7;           // its type
 constexpr int most_tags = 100'000;  // of an element: more is a file that is damaged
 
 /// Whether the type is a line with more than two nodes.
@@ -208,16 +215,20 @@ class Parser {
     if (kind.node_count > 0) return kind;
     cursor_.fail_at(place,
                     std::string("the file holds elements that are no ") +
-                        (is_curved_line(type) ? "two-node lines" : "three-node triangles or four-node quadrilaterals") +
-                        " (gmsh type " + std::to_string(type) + "): mesh it with 'gmsh -2 -order 1'");
+                        (is_curved_line(type) ? "two-node lines"
+                         : dimension == 2     ? "three-node triangles or four-node quadrilaterals"
+                         : type == pyramid    ? "tetrahedra, wedges or hexahedra"
+                                              : "elements of first order") +
+                        " (gmsh type " + std::to_string(type) + "): mesh it with 'gmsh -" + std::to_string(dimension) +
+                        " -order 1'" + (dimension == 3 && type == pyramid ? ", without pyramids" : ""));
   }
 
   template <class Number>
   void add_element(const Kind& kind, int group_list, std::size_t place, const Number& number) {
     MshFile::Element element{{}, kind.node_count, group_list, place};
     for (int i = 0; i < kind.node_count; ++i) element.nodes[i] = number();
-    if (kind.dimension == 1) file_.lines.push_back(element);
-    if (kind.dimension == 2) file_.cells.push_back(element);
+    if (kind.dimension == dimension - 1) file_.faces.push_back(element);
+    if (kind.dimension == dimension) file_.cells.push_back(element);
   }
 
   std::uint64_t old_node() {
@@ -329,7 +340,7 @@ class Parser {
       }
       list_of_block.push_back(groups.value_or(no_groups));
     }
-    for (auto* elements : {&file_.lines, &file_.cells}) {
+    for (auto* elements : {&file_.faces, &file_.cells}) {
       for (MshFile::Element& element : *elements) element.group_list = list_of_block[element.group_list];
     }
   }

@@ -10,10 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "framework/types.hpp"
+
 namespace sprekk {
 
-/// Nodes, lines and cells of a file in gmsh's format MSH, version 2.2 or 4.1, text or binary
-/// (https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format). Point elements and other sections are left out.
+/// Nodes, faces and cells of a file in gmsh's format MSH, version 2.2 or 4.1, text or binary
+/// (https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format). Elements of fewer dimensions than
+/// faces and other sections are left out.
 struct MshFile {
   /// A node with its number in the file.
   struct Node {
@@ -21,16 +24,16 @@ struct MshFile {
     std::array<double, 3> position;  ///< m
     std::size_t place;               ///< bytes before it in the file
   };
-  /// A line with two nodes, a triangle or a quadrilateral.
+  /// A line with two nodes, a triangle or a quadrilateral; in space also a tetrahedron, a wedge or a hexahedron.
   struct Element {
-    std::array<std::uint64_t, 4> nodes;  ///< by their numbers
+    std::array<std::uint64_t, 1 << dimension> nodes;  ///< by their numbers
     int node_count;
     int group_list;  ///< index into group_lists
     std::size_t place;
   };
 
   std::vector<Node> nodes;  ///< ascending by number, each once
-  std::vector<Element> lines, cells;
+  std::vector<Element> faces, cells;
   std::vector<std::vector<int>> group_lists;         ///< positive numbers of groups, each once
   std::map<std::pair<int, int>, std::string> names;  ///< of groups, by dimension and number
 

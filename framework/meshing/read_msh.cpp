@@ -9,13 +9,12 @@
 #include <sstream>
 
 #include "framework/mesh/face_table.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/oriented_cells.hpp"
-#include "framework/mesh/plane/cell_shape.hpp"
-#include "framework/mesh/plane/planar.hpp"
-#include "framework/meshing/conforming/curve_group.hpp"
-#include "framework/meshing/conforming/glue_cuts.hpp"
+#include "framework/meshing/conforming/face_group.hpp"
+#include "framework/meshing/conforming/plane/glue_cuts.hpp"
 #include "framework/meshing/conforming/require_conforming.hpp"
 #include "framework/meshing/geometry.hpp"
 #include "framework/meshing/msh_file.hpp"
@@ -27,54 +26,6 @@ namespace {
 /// might overflow or vanish.
 constexpr double farthest = 1e12, smallest_extent = 1e-12;
 
-/// Orders lines into one path.
-class Path {
- public:
-  explicit Path(const CurveGroup& group) : group_(group) {
-    for (const auto& [a, b] : group.lines) {
-      neighbours_[a].push_back(b);
-      neighbours_[b].push_back(a);
-    }
-  }
-
-  std::vector<int> nodes() const {
-    int ends = 0;
-    for (const auto& [node, joined] : neighbours_) {
-      if (joined.size() > 2) throw InputError("fracture '" + group_.name + "' branches (a fracture is one line)");
-      if (joined.size() == 1) ++ends;
-    }
-    if (ends == 0) throw InputError("fracture '" + group_.name + "' is a closed loop (a fracture has two ends)");
-    const auto [first, second] = group_.lines.front();
-    auto nodes = walk(second, first);
-    std::reverse(nodes.begin(), nodes.end());
-    const auto ahead = walk(first, second);
-    nodes.insert(nodes.end(), ahead.begin(), ahead.end());
-    if (nodes.size() != group_.lines.size() + 1) {
-      throw InputError("fracture '" + group_.name +
-                       "' is in several parts (a fracture is one line) give each its own group");
-    }
-    return nodes;
-  }
-
- private:
-  /// The nodes of the path from `node` to the end that is not on the side of `previous`.
-  std::vector<int> walk(int previous, int node) const {
-    std::vector<int> nodes{node};
-    while (nodes.size() <= group_.lines.size()) {
-      const auto& joined = neighbours_.at(node);
-      if (joined.size() < 2) break;
-      const int next = joined[0] == previous ? joined[1] : joined[0];
-      previous = node;
-      node = next;
-      nodes.push_back(node);
-    }
-    return nodes;
-  }
-
-  const CurveGroup& group_;
-  std::map<int, std::vector<int>> neighbours_;
-};
-
 class MshReader {
  public:
   explicit MshReader(std::string_view bytes) : file_(parse_msh(bytes)) {}
@@ -82,8 +33,10 @@ class MshReader {
   RawMesh read() {
     read_nodes();
     read_cells();
-    if (mesh_.cells.empty()) throw InputError("the file holds no triangles and no quadrilaterals");
-    read_curves();
+    if (mesh_.cells.empty()) throw InputError(std::string("the file holds no ") +
+                                                   (dimension == 2 ? "triangles and no quadrilaterals"
+                                                                   : "tetrahedra, no wedges and no hexahedra"));
+    read_faces();
     return std::move(mesh_);
   }
 
@@ -104,15 +57,15 @@ class MshReader {
     Point low = Point::Zero(), high = Point::Zero();
     double height = 0;
     for (const MshFile::Node& node : file_.nodes) {
-      const auto& [x, y, z] = node.position;
-      if (std::max({std::abs(x), std::abs(y), std::abs(z)}) > farthest) {
+      const Eigen::Vector3d x(node.position.data());
+      if (x.cwiseAbs().maxCoeff() > farthest) {
         fail(node.place, "node " + std::to_string(node.number) + " is farther than 1e12 m from the origin");
       }
-      mesh_.nodes.emplace_back(x, y);
+      mesh_.nodes.push_back(x.head<dimension>());
       if (mesh_.nodes.size() == 1) low = high = mesh_.nodes[0];
       low = low.cwiseMin(mesh_.nodes.back());
       high = high.cwiseMax(mesh_.nodes.back());
-      height = std::max(height, std::abs(z));
+      if (dimension == 2) height = std::max(height, std::abs(x.z()));
     }
     const double extent = (high - low).norm();
     if (extent < smallest_extent) throw InputError("all nodes are at one place (their distance is below 1e-12 m)");
@@ -136,8 +89,8 @@ class MshReader {
   int group_of(const MshFile::Element& cell) const {
     const std::vector<int>& groups = file_.group_lists[cell.group_list];
     if (groups.size() > 1) {
-      fail(cell.place, "a surface belongs to two groups ('" + group_name(2, groups[0]) + "' and '" +
-                           group_name(2, groups[1]) + "')");
+      fail(cell.place, std::string(dimension == 2 ? "a surface" : "a volume") + " belongs to two groups ('" +
+                           group_name(dimension, groups[0]) + "' and '" + group_name(dimension, groups[1]) + "')");
     }
     return groups.empty() ? none : groups[0];
   }
@@ -162,7 +115,7 @@ class MshReader {
     std::map<int, int> region_of_group;
     for (const int group : groups) {
       region_of_group[group] = static_cast<int>(mesh_.region_names.size());
-      add_name(group_name(2, group), "regions", mesh_.region_names);
+      add_name(group_name(dimension, group), "regions", mesh_.region_names);
     }
     if (has_rest) {
       region_of_group[none] = static_cast<int>(mesh_.region_names.size());
@@ -171,32 +124,46 @@ class MshReader {
     return region_of_group;
   }
 
+  /// The nodes of a cell, or of a face, in the order of gmsh, which is that of shapes.
+  template <class Nodes>
+  Nodes nodes_of(const MshFile::Element& element) const {
+    if constexpr (std::is_same_v<Nodes, Ring>) {
+      Ring ring(node(element, 0), node(element, 1), node(element, 2));
+      if (element.node_count == 4) ring = Ring(ring[0], ring[1], ring[2], node(element, 3));
+      return ring;
+    } else if constexpr (std::is_same_v<Nodes, std::array<int, 2>>) {
+      return {node(element, 0), node(element, 1)};
+    } else {
+      Nodes nodes;
+      for (int k = 0; k < element.node_count; ++k) nodes.push_back(node(element, k));
+      return nodes;
+    }
+  }
+
   void read_cells() {
     const std::map<int, int> region_of_group = name_regions();
     mesh_.cells.reserve(file_.cells.size());
     for (const MshFile::Element& cell : file_.cells) {
-      Ring ring(node(cell, 0), node(cell, 1), node(cell, 2));
-      if (cell.node_count == 4) ring = Ring(ring[0], ring[1], ring[2], node(cell, 3));
+      mesh_.cells.push_back(nodes_of<CellNodes>(cell));
       try {
-        require_sound_cell(mesh_.nodes, ring);
+        require_sound_cell(mesh_.nodes, mesh_.cells.back());
       } catch (const InputError& error) {
         fail(cell.place, error.what());
       }
-      if (signed_area(mesh_.nodes, ring) < 0) ring.turn();
-      mesh_.cells.push_back(ring);
       mesh_.regions.push_back(region_of_group.at(group_of(cell)));
     }
+    mesh_.cells = oriented_cells(mesh_);
   }
 
-  /// The groups of curves in the order of their numbers.
-  std::vector<CurveGroup> curve_groups() const {
-    std::map<int, CurveGroup> curves;
-    for (const MshFile::Element& line : file_.lines) {
-      const std::array<int, 2> nodes{node(line, 0), node(line, 1)};
-      for (const int group : file_.group_lists[line.group_list]) curves[group].lines.push_back(nodes);
+  /// The groups of curves, or of surfaces, in the order of their numbers.
+  std::vector<FaceGroup> face_groups() const {
+    std::map<int, FaceGroup> groups;
+    for (const MshFile::Element& face : file_.faces) {
+      const FaceNodes nodes = nodes_of<FaceNodes>(face);
+      for (const int group : file_.group_lists[face.group_list]) groups[group].faces.push_back(nodes);
     }
-    std::vector<CurveGroup> list;
-    for (auto& [group, curve] : curves) list.push_back({group_name(1, group), std::move(curve.lines)});
+    std::vector<FaceGroup> list;
+    for (auto& [number, group] : groups) list.push_back({group_name(dimension - 1, number), std::move(group.faces)});
     return list;
   }
 
@@ -211,7 +178,8 @@ class MshReader {
       if (is_new) continue;
       const MshFile::Element &one = file_.cells[known->second], &other = file_.cells[c];
       fail(other.place,
-           "a cell is there twice, before at " + file_.where(one.place) + " (a surface that belongs to two groups?)");
+           "a cell is there twice, before at " + file_.where(one.place) + " (a " +
+               (dimension == 2 ? "surface" : "volume") + " that belongs to two groups?)");
     }
   }
 
@@ -224,54 +192,55 @@ class MshReader {
     }
   }
 
-  void read_curves() {
+  void read_faces() {
     refuse_overlapping_cells();
-    std::vector<CurveGroup> groups = curve_groups();
-    glue_cuts(mesh_, groups);
-    const FaceTable edges(mesh_.nodes, mesh_.cells);
-    std::vector<bool> has_side(edges.size(), false);
-    for (const CurveGroup& group : groups) {
+    std::vector<FaceGroup> groups = face_groups();
+    if constexpr (dimension == 2) glue_cuts(mesh_, groups);
+    const FaceTable faces(mesh_.nodes, mesh_.cells);
+    std::vector<bool> has_side(faces.size(), false);
+    for (const FaceGroup& group : groups) {
+      const std::string what = (dimension == 2 ? "curve '" : "surface '") + group.name + "'";
       std::size_t outer = 0;
-      for (const auto& [a, b] : group.lines) {
-        const int edge = edges.find({a, b});
-        if (edge == none) {
-          throw InputError("curve '" + group.name + "' leaves the edges of the cells near " + to_text(mesh_.nodes[a]) +
+      for (const FaceNodes& nodes : group.faces) {
+        const int face = faces.find(nodes);
+        if (face == none) {
+          throw InputError(what + " leaves the " + face_name + "s of the cells near " + to_text(mesh_.nodes[nodes[0]]) +
                            " (the mesh does not conform to it)");
         }
-        if (!edges.is_outer(edge)) continue;
+        if (!faces.is_outer(face)) continue;
         ++outer;
-        has_side[edge] = true;
-        mesh_.boundary_faces.push_back({{a, b}, static_cast<int>(mesh_.side_names.size())});
+        has_side[face] = true;
+        mesh_.boundary_faces.push_back({nodes, static_cast<int>(mesh_.side_names.size())});
       }
-      if (outer == group.lines.size()) {
+      if (outer == group.faces.size()) {
         add_name(group.name, "sides", mesh_.side_names);
       } else if (outer == 0) {
         add_fracture(group);
       } else {
-        throw InputError("curve '" + group.name +
-                         "' lies partly inside and partly on the boundary (it is neither a side nor a fracture)");
+        throw InputError(what +
+                         " lies partly inside and partly on the boundary (it is neither a side nor a fracture)");
       }
     }
-    notes_ = require_conforming(mesh_, edges, has_side);
-    add_unnamed_sides(edges, has_side);
+    notes_ = require_conforming(mesh_, faces, has_side);
+    add_unnamed_sides(faces, has_side);
   }
 
-  void add_fracture(const CurveGroup& group) {
-    for (const RawMesh::Chain& other : mesh_.fractures) {
+  void add_fracture(const FaceGroup& group) {
+    for (const RawMesh::Fracture& other : mesh_.fractures) {
       if (other.name == group.name) throw InputError("two fractures are called '" + group.name + "', rename one");
     }
-    mesh_.fractures.push_back({group.name, Path(group).nodes()});
+    mesh_.fractures.push_back(fracture_of(group));
   }
 
-  void add_unnamed_sides(const FaceTable& edges, const std::vector<bool>& has_side) {
+  void add_unnamed_sides(const FaceTable& faces, const std::vector<bool>& has_side) {
     int side = none;
-    for (int edge = 0; edge < edges.size(); ++edge) {
-      if (!edges.is_outer(edge) || has_side[edge]) continue;
+    for (int face = 0; face < faces.size(); ++face) {
+      if (!faces.is_outer(face) || has_side[face]) continue;
       if (side == none) {
         side = static_cast<int>(mesh_.side_names.size());
         add_name("boundary", "sides", mesh_.side_names);
       }
-      mesh_.boundary_faces.push_back({edges.nodes(edge), side});
+      mesh_.boundary_faces.push_back({faces.nodes(face), side});
     }
   }
 

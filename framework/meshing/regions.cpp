@@ -1,8 +1,7 @@
 #include "framework/meshing/regions.hpp"
 
+#include "framework/mesh/geometry.hpp"
 #include "framework/mesh/medium.hpp"
-#include "framework/mesh/plane/cell_shape.hpp"
-#include "framework/mesh/plane/planar.hpp"
 
 namespace sprekk {
 
@@ -17,9 +16,9 @@ void assign_regions(const Geometry& geometry, RawMesh& mesh) {
   mesh.regions.assign(mesh.cells.size(), 0);
   if (geometry.regions.empty()) return;
   for (std::size_t t = 0; t < mesh.cells.size(); ++t) {
-    const Point center = centroid(mesh.nodes, mesh.cells[t]);
+    const Point center = cell_geometry(mesh.nodes, mesh.cells[t]).center;
     for (std::size_t i = 0; i < geometry.regions.size(); ++i) {
-      if (is_inside(center, geometry.regions[i].polygon)) mesh.regions[t] = static_cast<int>(i) + 1;
+      if (is_inside(center, geometry.regions[i])) mesh.regions[t] = static_cast<int>(i) + 1;
     }
   }
 }

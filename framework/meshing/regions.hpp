@@ -8,10 +8,12 @@
 
 namespace sprekk {
 
-/// The names of all regions: medium_name(), then those of the polygons.
+/// The names of all regions: medium_name(), then those that the geometry names.
 std::vector<std::string> region_names(const Geometry& geometry);
 
-/// Assigns each cell to the last polygon that contains the centre of the cell, or to region 0 where there is none.
+bool is_inside(const Point& x, const RegionGeometry& region);
+
+/// Assigns each cell to the last region that contains the centre of the cell, or to region 0 where there is none.
 void assign_regions(const Geometry& geometry, RawMesh& mesh);
 
 }  // namespace sprekk

@@ -12,8 +12,8 @@ std::string note_on_short_fractures(const Geometry& geometry, const MeshOptions&
   double least = 1, shortest = 0, cell = 0;
   int count = 0;
   for (const FractureGeometry& fracture : geometry.fractures) {
-    double length = 0;
-    for (std::size_t i = 0; i + 1 < fracture.points.size(); ++i)
+    double length = dimension == 2 ? 0 : extent_of(fracture);
+    for (std::size_t i = 0; dimension == 2 && i + 1 < fracture.points.size(); ++i)
       length += (fracture.points[i + 1] - fracture.points[i]).norm();
     double size = size_at(fracture, geometry, options);
     size = std::min(size, options.tip_size.value_or(size));

@@ -5,8 +5,8 @@
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/meshing/graded_division.hpp"
-#include "framework/meshing/narrow_gaps.hpp"
+#include "framework/meshing/plane/graded_division.hpp"
+#include "framework/meshing/plane/narrow_gaps.hpp"
 
 namespace sprekk {
 namespace {

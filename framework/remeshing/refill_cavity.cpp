@@ -8,7 +8,7 @@
 #include <string>
 
 #include "framework/mesh/plane/original_end.hpp"
-#include "framework/meshing/graded_division.hpp"
+#include "framework/meshing/plane/graded_division.hpp"
 #include "framework/remeshing/cavity.hpp"
 #include "framework/remeshing/fill_cavity.hpp"
 #include "framework/remeshing/rounded_filling.hpp"

@@ -11,7 +11,7 @@
 #include "framework/linear/direct/blas_memory.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/network_shape.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/meshing/regions.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/run/unchanging_data.hpp"
 
@@ -96,7 +96,7 @@ void note_overlapping_regions(const Geometry& geometry, const Mesh& mesh, Notes&
       for (int c = 0; c < mesh.cell_count(); ++c) {
         left += mesh.cell_region[c] == other ? 1 : 0;
         if (mesh.cell_region[c] != own) continue;
-        const bool is_in_both = is_inside(mesh.cell_center[c], regions[earlier].polygon);
+        const bool is_in_both = is_inside(mesh.cell_center[c], regions[earlier]);
         if (is_in_both && inside == 0) at = mesh.cell_center[c];
         ++(is_in_both ? inside : outside);
       }

@@ -3,6 +3,8 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "framework/meshing/gmsh_module/gmsh_model.hpp"
 #include "framework/module/define_module.hpp"
@@ -30,17 +32,22 @@ void add_geometry(const PlanarLines& lines) {
   if (!lines.inner.empty()) gmsh::model::mesh::embed(1, tags(lines.inner), 2, surface);
 }
 
+/// The number of each node by its tag.
+std::vector<int> fetch_nodes(std::vector<double>& coordinates) {
+  std::vector<std::size_t> found;
+  std::vector<double> parameters;
+  gmsh::model::mesh::getNodes(found, coordinates, parameters, -1, -1, false, false);
+  std::vector<int> number(found.empty() ? 0 : *std::max_element(found.begin(), found.end()) + 1);
+  for (std::size_t i = 0; i < found.size(); ++i) number[found[i]] = static_cast<int>(i);
+  return number;
+}
+
 PlanarTriangles fetch_mesh(const PlanarLines& lines) {
   PlanarTriangles mesh;
   std::vector<std::size_t> found, elements;
   std::vector<double> coordinates, parameters;
-  gmsh::model::mesh::getNodes(found, coordinates, parameters, -1, -1, false, false);
-  std::vector<int> number(found.empty() ? 0 : *std::max_element(found.begin(), found.end()) + 1);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    number[found[i]] = static_cast<int>(i);
-    mesh.nodes.push_back({coordinates[3 * i], coordinates[3 * i + 1]});
-  }
-  found.clear();
+  const std::vector<int> number = fetch_nodes(coordinates);
+  for (std::size_t i = 0; i < coordinates.size(); i += 3) mesh.nodes.push_back({coordinates[i], coordinates[i + 1]});
   constexpr int three_node_triangle = 2;
   gmsh::model::mesh::getElementsByType(three_node_triangle, elements, found);
   for (std::size_t i = 0; i + 2 < found.size(); i += 3)
@@ -60,6 +67,86 @@ PlanarTriangles fetch_mesh(const PlanarLines& lines) {
   return mesh;
 }
 
+using Vector = std::array<double, 3>;
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+
+/// Adds an ellipse to OpenCASCADE's model; returns its tag.
+int add_ellipse(const FlatSurface& surface) {
+  namespace occ = gmsh::model::occ;
+  const bool is_first = length(surface.one_axis) >= length(surface.other_axis);
+  const Vector &longer = is_first ? surface.one_axis : surface.other_axis,
+               &shorter = is_first ? surface.other_axis : surface.one_axis, &center = surface.center;
+  // From the x-y plane by three turns: about z, so that its longer axis has the right place, then about y and z, so that
+  // its normal has.
+  const Vector normal = cross(longer, shorter);
+  const double azimuth = std::atan2(normal[1], normal[0]), from_z = std::atan2(std::hypot(normal[0], normal[1]), normal[2]);
+  const double along = std::cos(azimuth) * longer[0] + std::sin(azimuth) * longer[1];
+  const double turn = std::atan2(std::cos(azimuth) * longer[1] - std::sin(azimuth) * longer[0],
+                                 std::cos(from_z) * along - std::sin(from_z) * longer[2]);
+  const int disk = occ::addDisk(0, 0, 0, length(longer), length(shorter));
+  occ::rotate({{2, disk}}, 0, 0, 0, 0, 0, 1, turn);
+  occ::rotate({{2, disk}}, 0, 0, 0, 0, 1, 0, from_z);
+  occ::rotate({{2, disk}}, 0, 0, 0, 0, 0, 1, azimuth);
+  occ::translate({{2, disk}}, center[0], center[1], center[2]);
+  return disk;
+}
+
+/// Adds a surface to OpenCASCADE's model; returns its tag.
+int add_surface(const FlatSurface& surface) {
+  namespace occ = gmsh::model::occ;
+  if (surface.corners.empty()) return add_ellipse(surface);
+  std::vector<int> points, curves;
+  for (const Vector& x : surface.corners) points.push_back(occ::addPoint(x[0], x[1], x[2]));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    curves.push_back(occ::addLine(points[i], points[(i + 1) % points.size()]));
+  return occ::addPlaneSurface({occ::addCurveLoop(curves)});
+}
+
+/// Adds the box, divided by the surfaces; returns the tags of the parts of each surface.
+std::vector<std::vector<int>> add_geometry(const CutBox& box) {
+  namespace occ = gmsh::model::occ;
+  const int whole = occ::addBox(box.low[0], box.low[1], box.low[2], box.high[0] - box.low[0], box.high[1] - box.low[1],
+                                box.high[2] - box.low[2]);
+  gmsh::vectorpair tools, all;
+  for (const FlatSurface& surface : box.surfaces) tools.emplace_back(2, add_surface(surface));
+  std::vector<gmsh::vectorpair> parts;  // of the box, then of each surface
+  if (!tools.empty()) occ::fragment({{3, whole}}, tools, all, parts);
+  occ::synchronize();
+  std::vector<std::vector<int>> tags(box.surfaces.size());
+  for (std::size_t i = 0; i < box.surfaces.size(); ++i)
+    for (const auto& [dim, part] : parts[i + 1])
+      if (dim == 2) tags[i].push_back(part);
+  return tags;
+}
+
+Tetrahedra fetch_mesh(const std::vector<std::vector<int>>& surfaces) {
+  Tetrahedra mesh;
+  std::vector<double> coordinates;
+  const std::vector<int> number = fetch_nodes(coordinates);
+  for (std::size_t i = 0; i < coordinates.size(); i += 3)
+    mesh.nodes.push_back({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
+  std::vector<std::size_t> elements, nodes;
+  constexpr int three_node_triangle = 2, four_node_tetrahedron = 4;
+  gmsh::model::mesh::getElementsByType(four_node_tetrahedron, elements, nodes);
+  for (std::size_t i = 0; i + 3 < nodes.size(); i += 4)
+    mesh.tetrahedra.push_back({number[nodes[i]], number[nodes[i + 1]], number[nodes[i + 2]], number[nodes[i + 3]]});
+  for (const std::vector<int>& parts : surfaces) {
+    auto& triangles = mesh.triangles.emplace_back();
+    for (const int part : parts) {
+      elements.clear(), nodes.clear();  // gmsh appends
+      gmsh::model::mesh::getElementsByType(three_node_triangle, elements, nodes, part);
+      for (std::size_t i = 0; i + 2 < nodes.size(); i += 3)
+        triangles.push_back({number[nodes[i]], number[nodes[i + 1]], number[nodes[i + 2]]});
+    }
+  }
+  return mesh;
+}
+
 class Module final : public GmshModule {
  public:
   PlanarTriangles triangles(const PlanarLines& lines) const override {
@@ -71,6 +158,19 @@ class Module final : public GmshModule {
       gmsh::option::setNumber("Mesh.RandomFactor", lines.random_factor);
       gmsh::model::mesh::generate(2);
       mesh = fetch_mesh(lines);
+    });
+    return mesh;
+  }
+
+  Tetrahedra tetrahedra(const CutBox& box) const override {
+    Tetrahedra mesh;
+    const GmshModel model;
+    model.run("mesh the geometry", [&] {
+      const std::vector<std::vector<int>> surfaces = add_geometry(box);
+      gmsh::model::mesh::setSizeCallback(
+          [&](int, int, double x, double y, double z) { return box.size_at(x, y, z); });
+      gmsh::model::mesh::generate(3);
+      mesh = fetch_mesh(surfaces);
     });
     return mesh;
   }

@@ -1,4 +1,4 @@
-// The part of gmsh that Sprekk uses: triangles between lines in the plane.
+// The part of gmsh that Sprekk uses: triangles between lines in the plane, tetrahedra between surfaces in space.
 #pragma once
 
 #include <array>
@@ -25,6 +25,26 @@ struct PlanarTriangles {
   std::vector<int> point_nodes;               ///< the node at each point
 };
 
+/// A flat surface in space: a polygon, or an ellipse where it has no corners.
+struct FlatSurface {
+  std::vector<std::array<double, 3>> corners;
+  std::array<double, 3> center{}, one_axis{}, other_axis{};  ///< of the ellipse; half axes at right angles
+};
+
+/// An axis-parallel box with surfaces in it that may cross and touch, but are not outside of it.
+struct CutBox {
+  std::array<double, 3> low, high;
+  std::vector<FlatSurface> surfaces;
+  std::function<double(double, double, double)> size_at;  ///< the wanted length of edges, in the unit of the points
+};
+
+/// Tetrahedra between surfaces, in the unit of the points. All numbers count from 0.
+struct Tetrahedra {
+  std::vector<std::array<double, 3>> nodes;
+  std::vector<std::array<int, 4>> tetrahedra;
+  std::vector<std::vector<std::array<int, 3>>> triangles;  ///< of each surface
+};
+
 /// The module "gmsh": gmsh loads a hundred libraries of geometry and windows.
 class GmshModule {
  public:
@@ -32,6 +52,9 @@ class GmshModule {
   /// Frontal-Delaunay triangles (gmsh's algorithm 6); all lines are edges of the mesh. Throws std::runtime_error
   /// "gmsh failed to <what> (<gmsh's words>)".
   virtual PlanarTriangles triangles(const PlanarLines& lines) const = 0;
+  /// Delaunay tetrahedra (gmsh's algorithm 1); all surfaces are faces of the mesh, and nodes at the rim of an ellipse lie
+  /// on it. Throws std::runtime_error as above.
+  virtual Tetrahedra tetrahedra(const CutBox& box) const = 0;
 };
 
 }  // namespace sprekk

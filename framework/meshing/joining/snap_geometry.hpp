@@ -13,7 +13,7 @@ namespace sprekk {
 /// the longer one keeps it. Fractures and regions that are not concerned keep all bits. Afterwards the geometry says
 /// how far it is joined. Returns notes on what was done, none if nothing was. Throws InputError for a length above that
 /// of the shortest cells, and for regions that vanish. Geometries that validate_geometry refuses anyhow, and those of
-/// mesh files, stay as they are.
+/// mesh files, stay as they are. In space nothing is joined.
 std::vector<std::string> snap_geometry(Geometry& geometry, const MeshOptions& options);
 
 }  // namespace sprekk

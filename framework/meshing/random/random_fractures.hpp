@@ -23,17 +23,19 @@ struct LengthLaw {
   bool operator==(const LengthLaw&) const = default;
 };
 
-/// A set of straight fractures: how many, how long, which way, where, and how far from one another.
+/// A set of straight fractures, in space of squares: how many, how long, which way, where, and how far from one another.
 struct RandomFractures {
   std::string name;  ///< they are called name_1, name_2, …; the longest first
   Origin origin;
   // One of these three says how many.
   std::optional<int> number;
-  std::optional<double> density;    ///< P20: fractures for each area, 1/m^2
-  std::optional<double> intensity;  ///< P21: length for each area, 1/m
+  std::optional<double> density;    ///< P20: fractures for each area, 1/m^2; in space P30: for each volume, 1/m^3
+  std::optional<double> intensity;  ///< P21: length for each area, 1/m; in space P32: area for each volume
   LengthLaw length;
-  double mean_angle = 0;      ///< rad, counter-clockwise from the x axis
-  double concentration = 0;   ///< concentration of von Mises' law about the mean; 0: all directions are equally likely
+  double mean_angle = 0;      ///< rad, counter-clockwise from the x axis; in a plane
+  double mean_strike = 0, mean_dip = 0;  ///< rad, clockwise from north and down to the right of it; in space
+  /// Of von Mises' law about the mean, in space of Fisher's law of normals; 0: all directions are equally likely.
+  double concentration = 0;
   std::optional<Box> region;  ///< where their middles lie; by default in the box
   int seed = 1;
   double least_angle = 0;  ///< rad, between fractures that cross
@@ -46,7 +48,9 @@ struct RandomFractures {
 /// - no end of it or of another fracture or edge of a region is nearer than `least_gap` to the other line,
 /// - it crosses others at `least_angle` or more, and no two crossings are nearer to each other than `least_gap`,
 /// so that places are uniform in the region but for these conditions. The longest are placed first. Coordinates are
-/// multiples of a power of ten, below a 1e-6th of the box, so that a table holds them with few digits. Throws
+/// multiples of a power of ten, below a 1e-6th of the box, so that a table holds them with few digits. In space rims are
+/// what ends are in a plane, coordinates have all digits, and lines along which fractures cross may be near to one
+/// another. Throws
 /// InputError when there is no place for all of them, or when the set has none or more than most_random_fractures.
 void draw_fractures(const RandomFractures& set, Geometry& geometry);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -91,7 +92,26 @@ Spec length_spec(const std::shared_ptr<LengthInput>& input, LengthLaw& law) {
   return spec;
 }
 
+Spec orientation_in_space(RandomFractures& set) {
+  Spec spec("orientation", "Fisher's law of the normals; without it all directions are alike.");
+  spec.quantity("strike", set.mean_strike,
+                {.unit = "rad", .doc = "The strike of the mean plane, clockwise from north (y).", .required = true});
+  spec.quantity("dip", set.mean_dip,
+                {.unit = "rad",
+                 .range = between(0, std::numbers::pi / 2),
+                 .doc = "The dip of the mean plane, to the right of its strike.",
+                 .required = true});
+  spec.quantity("concentration", set.concentration,
+                {.unit = "",
+                 .range = between(0, most_concentrated),
+                 .doc = "The parameter kappa: 0 is uniform, and large values scatter by sqrt(2/kappa) rad.",
+                 .source = "Fisher (1953)",
+                 .required = true});
+  return spec;
+}
+
 Spec orientation_spec(RandomFractures& set) {
+  if (dimension == 3) return orientation_in_space(set);
   Spec spec("orientation", "Von Mises' law of the directions; without it all directions are alike.");
   spec.quantity("mean", set.mean_angle,
                 {.unit = "rad",
@@ -107,21 +127,30 @@ Spec orientation_spec(RandomFractures& set) {
   return spec;
 }
 
-struct RegionInput {
-  std::vector<double> x, y;
-};
+using RegionInput = std::array<std::vector<double>, dimension>;
 
 Spec region_spec(const std::shared_ptr<RegionInput>& input, RandomFractures& set) {
-  Spec spec("region", "A rectangle for the middles of the fractures; by default the box.");
-  spec.quantities("x", input->x, {.unit = "m", .doc = "Where it begins and ends along x.", .required = true});
-  spec.quantities("y", input->y, {.unit = "m", .doc = "Where it begins and ends along y.", .required = true});
+  Spec spec("region", dimension == 2 ? "A rectangle for the middles of the fractures; by default the box."
+                                     : "A box for the middles of the fractures; by default the whole box.");
+  for (int axis = 0; axis < dimension; ++axis) {
+    const std::string key(1, "xyz"[axis]);
+    spec.quantities(key, (*input)[axis],
+                    {.unit = "m", .doc = "Where it begins and ends along " + key + ".", .required = true});
+  }
   spec.check([input, &set](const Node& whole) {
-    for (const auto& [key, ends] : {std::pair("x", &input->x), std::pair("y", &input->y)})
-      if (ends->size() != 2 || !((*ends)[0] < (*ends)[1]))
-        throw InputError(whole.find(key)->origin, std::string("the region needs two growing values along ") + key,
-                         std::to_string(ends->size()) + " are given, or they do not grow",
-                         std::string("write ") + key + ": [0 m, 1 m]");
-    set.region = Box{{input->x[0], input->y[0]}, {input->x[1], input->y[1]}, whole.origin};
+    Box region;
+    region.origin = whole.origin;
+    for (int axis = 0; axis < dimension; ++axis) {
+      const std::string key(1, "xyz"[axis]);
+      const std::vector<double>& ends = (*input)[axis];
+      if (ends.size() != 2 || !(ends[0] < ends[1]))
+        throw InputError(whole.find(key)->origin, "the region needs two growing values along " + key,
+                         std::to_string(ends.size()) + " are given, or they do not grow",
+                         "write " + key + ": [0 m, 1 m]");
+      region.low[axis] = ends[0];
+      region.high[axis] = ends[1];
+    }
+    set.region = region;
   });
   return spec;
 }
@@ -136,15 +165,21 @@ Spec random_fractures_spec(RandomFractures& set) {
   const auto input = std::make_shared<Input>();
   Spec spec(
       "random",
-      "Straight fractures drawn at random, the same on every machine; 'sprekk fractures' prints them as a table.");
+      std::string(dimension == 2 ? "Straight fractures" : "Square fractures") +
+          " drawn at random, the same on every machine; 'sprekk fractures' prints them as a table.");
   spec.quantity("number", input->number, {.unit = "", .range = between(1, most_random_fractures), .doc = "How many."});
   spec.quantity(
       "density", set.density,
-      {.unit = "1/m^2", .range = positive(), .doc = "How many for each area of the region (P20), instead of number."});
+      {.unit = dimension == 2 ? "1/m^2" : "1/m^3",
+       .range = positive(),
+       .doc = std::string("How many for each ") + (dimension == 2 ? "area of the region (P20)" : "volume of the region (P30)") +
+              ", instead of number."});
   spec.quantity("intensity", set.intensity,
                 {.unit = "1/m",
                  .range = positive(),
-                 .doc = "Their length for each area of the region (P21), to half of the last one, instead of number."});
+                 .doc = std::string(dimension == 2 ? "Their length for each area of the region (P21)"
+                                                  : "Their area for each volume of the region (P32)") +
+                        ", to half of the last one, instead of number."});
   spec.section("length", length_spec(std::make_shared<LengthInput>(), set.length),
                {.doc = "How long.", .required = true});
   spec.section("orientation", orientation_spec(set), {.doc = "Which way."}, &input->has_orientation);

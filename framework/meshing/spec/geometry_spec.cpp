@@ -9,6 +9,7 @@
 #include "framework/mesh/medium.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/random/random_fractures_spec.hpp"
+#include "framework/meshing/spec/places.hpp"
 
 namespace sprekk {
 namespace {
@@ -18,22 +19,27 @@ Origin origin_of(const Node& whole, const std::string& key) {
   return value ? value->origin : whole.origin;
 }
 
-struct BoxInput {
-  std::vector<double> x, y;
-};
+using BoxInput = std::array<std::vector<double>, dimension>;  ///< ends along each axis
 
 Spec box_spec(const std::shared_ptr<BoxInput>& input, Box& box) {
-  Spec spec("box", "A rectangle; its sides are called left, right, bottom and top.");
-  spec.quantities("x", input->x, {.unit = "m", .doc = "Where it begins and ends along x.", .required = true});
-  spec.quantities("y", input->y, {.unit = "m", .doc = "Where it begins and ends along y.", .required = true});
+  Spec spec("box", dimension == 2 ? "A rectangle; its sides are called left, right, bottom and top."
+                                  : "A box; its sides are called left and right (along x), front and back (along y), "
+                                    "bottom and top (along z).");
+  for (int axis = 0; axis < dimension; ++axis) {
+    const std::string key(1, "xyz"[axis]);
+    spec.quantities(key, (*input)[axis],
+                    {.unit = "m", .doc = "Where it begins and ends along " + key + ".", .required = true});
+  }
   spec.check([input, &box](const Node& whole) {
-    for (const auto& [key, ends] : {std::pair("x", &input->x), std::pair("y", &input->y)}) {
-      if (ends->size() == 2) continue;
-      throw InputError(origin_of(whole, key), std::string("the box needs two values along ") + key,
-                       std::to_string(ends->size()) + " are given", std::string("write ") + key + ": [0 m, 1 m]");
+    for (int axis = 0; axis < dimension; ++axis) {
+      const std::string key(1, "xyz"[axis]);
+      const std::vector<double>& ends = (*input)[axis];
+      if (ends.size() != 2)
+        throw InputError(origin_of(whole, key), "the box needs two values along " + key,
+                         std::to_string(ends.size()) + " are given", "write " + key + ": [0 m, 1 m]");
+      box.low[axis] = ends[0];
+      box.high[axis] = ends[1];
     }
-    box.low = {input->x[0], input->y[0]};
-    box.high = {input->x[1], input->y[1]};
     box.origin = whole.origin;
   });
   return spec;
@@ -43,9 +49,7 @@ struct FractureInput {
   std::string table;
   bool is_random = false;
   RandomFractures random;
-  std::vector<Point> points;
-  std::optional<Point> center;
-  std::optional<double> length, size, angle;
+  std::optional<double> size;
 };
 
 /// Takes the fractures of a scene as they are read.
@@ -63,29 +67,20 @@ void require_alone(const Node& whole, const std::string& name, const std::string
 
 Spec fracture_spec(const std::string& name, const Origin& origin, const std::string& folder, FractureKeeper keeper) {
   const auto input = std::make_shared<FractureInput>();
-  Spec spec("fracture",
-            "A polyline, given by its points or as a straight line by center, length and angle; or a set of fractures, "
-            "from a table or drawn at random.");
-  spec.points("points", input->points,
-              {.unit = "m", .doc = "The points of the polyline; the plus side is to its left."});
-  spec.point("center", input->center, {.unit = "m", .doc = "The middle of a straight fracture."});
-  spec.quantity("length", input->length,
-                {.unit = "m", .range = positive(), .doc = "The length of a straight fracture."});
-  spec.quantity(
-      "angle", input->angle,
-      {.unit = "rad", .doc = "The direction of a straight fracture, counter-clockwise from the x axis; by default 0."});
-  usually(spec, "angle", usual_angle());
+  Spec spec("fracture", fracture_doc);
+  const auto place = std::make_shared<FracturePlace>();
+  add_place(spec, place);
   spec.quantity("size", input->size,
                 {.unit = "m", .range = positive(), .doc = "The length of its cells; else the mesh's fracture_size."});
   spec.text("table", input->table,
-            {.doc = "A CSV file beside the scene with many fractures: a row for each with the columns x1, y1, x2, y2, "
-                    "or for each point of a polyline with name, x, y; also name and size. They are called NAME_1, "
+            {.doc = "A CSV file beside the scene with many fractures: " + std::string(table_columns) +
+                    "; also name and size. They are called NAME_1, "
                     "NAME_2, … where they have no names. Data may take further columns by {column: …}."});
   input->random.name = name;
   input->random.origin = origin;
   spec.section("random", random_fractures_spec(input->random),
                {.doc = "A set that is drawn at random: NAME_1, NAME_2, …, the longest first."}, &input->is_random);
-  spec.check([input, name, origin, folder, keeper = std::move(keeper)](const Node& whole) {
+  spec.check([input, place, name, origin, folder, keeper = std::move(keeper)](const Node& whole) {
     if (!input->table.empty()) {
       require_alone(whole, name, "come from a table", "the table");
       for (FractureGeometry& fracture : read_fracture_table({input->table, folder, name, origin}))
@@ -96,23 +91,8 @@ Spec fracture_spec(const std::string& name, const Origin& origin, const std::str
       require_alone(whole, name, "are random", "'random'");
       return keeper.keep_set(input->random);
     }
-    FractureGeometry fracture{name, input->points, input->size, origin};
-    const bool has_points = !input->points.empty(), has_center = input->center.has_value();
-    const bool has_line = has_center || input->length || input->angle;
-    if (has_points && has_line) {
-      throw InputError(whole.origin, "fracture '" + name + "' is given twice",
-                       "it has points and also center, length or angle", "keep one of the two");
-    }
-    if (!has_points && !(has_center && input->length)) {
-      throw InputError(whole.origin, "fracture '" + name + "' is not given completely",
-                       "it needs points, or center and length",
-                       "write points: [[x, y], [x, y]] or center: [x, y], length: …, angle: …");
-    }
-    if (has_center) {
-      const double angle = input->angle.value_or(0);
-      const Point half = 0.5 * *input->length * Point(std::cos(angle), std::sin(angle));
-      fracture.points = {*input->center - half, *input->center + half};
-    }
+    FractureGeometry fracture{name, {}, input->size, origin};
+    take_place(*place, whole, fracture);
     keeper.keep(std::move(fracture));
   });
   return spec;
@@ -129,25 +109,19 @@ void draw_sets(const std::vector<RandomFractures>& sets, Geometry& geometry) {
   }
 }
 
-Spec region_spec(const std::string& name, const Origin& origin, std::function<void(RegionGeometry)> keep) {
-  const auto polygon = std::make_shared<std::vector<Point>>();
-  Spec spec("region", "A part of the " + medium_name() + " that may have properties of its own.");
-  spec.points("polygon", *polygon,
-              {.unit = "m", .doc = "The corners in order, not repeating the first.", .required = true});
-  spec.check([polygon, name, origin, keep = std::move(keep)](const Node&) { keep({name, *polygon, origin}); });
-  return spec;
-}
-
 }  // namespace
 
 Spec geometry_spec(Geometry& geometry, const std::string& folder) {
   Spec spec("geometry", "The " + medium_name() + ", the fractures in it, and its regions.");
   spec.section("box", box_spec(std::make_shared<BoxInput>(), geometry.box),
-               {.doc = "The " + medium_name() + " as a rectangle."});
+               {.doc = "The " + medium_name() + (dimension == 2 ? " as a rectangle." : " as a box.")});
   spec.text(
       "file", geometry.file,
-      {.doc = "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: groups "
-              "of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."});
+      {.doc = dimension == 2
+                  ? "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: "
+                    "groups of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."
+                  : "A gmsh mesh file of tetrahedra, wedges and hexahedra instead of a box, relative to the scene: groups "
+                    "of surfaces are sides (on the boundary) or fractures (inside), groups of volumes are regions."});
   const auto sets = std::make_shared<std::vector<RandomFractures>>();
   // The short form `fractures: {table: FILE}` has been expanded by expand_fracture_table.
   spec.named_sections(
@@ -163,7 +137,8 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                         return region_spec(name, origin,
                                            [&geometry](RegionGeometry r) { geometry.regions.push_back(std::move(r)); });
                       },
-                      {.doc = "Polygons that the mesh conforms to, by name; the rest is called " + medium_name() +
+                      {.doc = (dimension == 2 ? "Polygons" : "Bodies") +
+                              std::string(" that the mesh conforms to, by name; the rest is called ") + medium_name() +
                               ", and later ones cover earlier ones."});
   spec.quantity("snap", geometry.snap,
                 {.unit = "m",
@@ -194,27 +169,32 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
 
 namespace {
 
-/// The numbers of rectangles of a structured mesh.
+const std::string axes = dimension == 2 ? "x and y" : "x, y and z";
+const std::string cells_counted = dimension == 2 ? "rectangles" : "hexahedra";
+
+/// The numbers of rectangles, or of hexahedra, of a structured mesh.
 void take_cells(const Node& whole, const std::vector<double>& cells, MeshOptions& options) {
   const Origin origin = origin_of(whole, "cells");
   if (options.kind != MeshOptions::Kind::structured) {
-    throw InputError(origin, "an unstructured mesh has no cells along x and y", "its edges have a size",
+    throw InputError(origin, std::string("an unstructured mesh has no cells along ") + axes, "its edges have a size",
                      "write kind: structured, or size: …");
   }
   constexpr double most = 1e7;
-  if (cells.size() != 2 || cells[0] != std::floor(cells[0]) || cells[1] != std::floor(cells[1]) ||
-      std::max(cells[0], cells[1]) > most) {
-    throw InputError(origin, "cells are not two whole numbers", "they count the rectangles along x and y",
-                     "write cells: [20, 20]");
+  const auto is_count = [](double count) { return count == std::floor(count) && count <= most; };
+  if (cells.size() != dimension || !std::ranges::all_of(cells, is_count)) {
+    throw InputError(origin,
+                     std::string("cells are not ") + (dimension == 2 ? "two" : "three") + " whole numbers",
+                     "they count the " + cells_counted + " along " + axes,
+                     dimension == 2 ? "write cells: [20, 20]" : "write cells: [20, 20, 20]");
   }
-  options.cells = {static_cast<int>(cells[0]), static_cast<int>(cells[1])};
+  for (int axis = 0; axis < dimension; ++axis) options.cells[axis] = static_cast<int>(cells[axis]);
 }
 
 }  // namespace
 
 Spec mesh_spec(MeshOptions& options) {
   struct Input {
-    std::string kind = "unstructured", shape = "triangles", division = "compact";
+    std::string kind = "unstructured", shape = dimension == 2 ? "triangles" : "tetrahedra", division = "compact";
     std::vector<double> cells;
   };
   const auto input = std::make_shared<Input>();
@@ -222,19 +202,30 @@ Spec mesh_spec(MeshOptions& options) {
   spec.choice("kind", input->kind,
               {{"unstructured", "cells of varying size, made by gmsh"},
                {"structured",
-                "equal rectangles, cut into triangles by alternating diagonals; fractures and edges of regions must "
-                "lie on their lines"}},
+                dimension == 2
+                    ? "equal rectangles, cut into triangles by alternating diagonals; fractures and edges of regions "
+                      "must lie on their lines"
+                    : "equal hexahedra, whole or cut by alternating diagonals; fractures and borders of regions must be "
+                      "faces of cells"}},
               {.doc = "What kind of mesh."});
-  spec.choice("shape", input->shape,
-              {{"triangles", "triangles only"},
-               {"quadrilaterals",
-                "structured: whole rectangles, without diagonals; unstructured: triangles are joined in pairs "
-                "where that gives good convex cells; the others stay"}},
+  const std::vector<std::pair<std::string, std::string>> shapes =
+      dimension == 2
+          ? std::vector<std::pair<std::string, std::string>>{{"triangles", "triangles only"},
+                                                             {"quadrilaterals",
+                                                              "structured: whole rectangles, without diagonals; "
+                                                              "unstructured: triangles are joined in pairs "
+                                                              "where that gives good convex cells; the others stay"}}
+          : std::vector<std::pair<std::string, std::string>>{
+                {"tetrahedra", "structured: six of each hexahedron; unstructured meshes have these alone"},
+                {"wedges", "structured: two of each hexahedron, with triangles at bottom and top"},
+                {"hexahedra", "structured: whole"}};
+  spec.choice("shape", input->shape, shapes,
               {.doc = "What the cells look like; a mesh file brings its own."});
   spec.quantity("size", options.size,
                 {.unit = "m",
                  .range = positive(),
-                 .doc = "Edge length away from fractures; by default a fiftieth of the box's longer side."});
+                 .doc = "Edge length away from fractures; by default a " +
+                        std::string(dimension == 2 ? "fiftieth" : "twentieth") + " of the box's longer side."});
   spec.quantity("fracture_size", options.fracture_size,
                 {.unit = "m", .range = positive(), .doc = "Edge length at fractures; by default size."});
   spec.quantity(
@@ -266,7 +257,7 @@ Spec mesh_spec(MeshOptions& options) {
                  .doc = "Gaps make edges no shorter than this; by default a 500th of the shortest size asked for."});
   spec.quantities(
       "cells", input->cells,
-      {.unit = "", .range = positive(), .doc = "Structured: rectangles along x and y; by default as size asks."});
+      {.unit = "", .range = positive(), .doc = "Structured: " + cells_counted + " along " + axes + "; by default as size asks."});
   spec.quantity("distortion", options.distortion,
                 {.unit = "",
                  .range = between(0, 0.4),
@@ -283,7 +274,12 @@ Spec mesh_spec(MeshOptions& options) {
     options.division = input->division == "scattered"  ? Division::scattered
                        : input->division == "lopsided" ? Division::lopsided
                                                        : Division::compact;
-    options.shape = input->shape == "triangles" ? MeshOptions::Shape::triangles : MeshOptions::Shape::quadrilaterals;
+    using Shape = MeshOptions::Shape;
+    options.shape = input->shape == "triangles"        ? Shape::triangles
+                    : input->shape == "quadrilaterals" ? Shape::quadrilaterals
+                    : input->shape == "tetrahedra"     ? Shape::tetrahedra
+                    : input->shape == "wedges"         ? Shape::wedges
+                                                       : Shape::hexahedra;
     if (!input->cells.empty()) take_cells(whole, input->cells, options);
   });
   return spec;

@@ -1,6 +1,6 @@
 #include "framework/mesh/plane/planar.hpp"
 
-#include "framework/meshing/arrangement.hpp"
+#include "framework/meshing/plane/arrangement.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

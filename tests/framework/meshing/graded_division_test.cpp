@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "framework/meshing/graded_division.hpp"
+#include "framework/meshing/plane/graded_division.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "framework/meshing/narrow_gaps.hpp"
+#include "framework/meshing/plane/narrow_gaps.hpp"
 
 #include <functional>
 #include <map>
 
 #include "framework/mesh/mesh_quality.hpp"
 #include "framework/meshing/generate_mesh.hpp"
-#include "framework/meshing/size_field.hpp"
+#include "framework/meshing/plane/size_field.hpp"
 #include "framework/meshing/validate_geometry.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 

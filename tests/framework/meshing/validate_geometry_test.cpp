@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "framework/meshing/size_field.hpp"
+#include "framework/meshing/plane/size_field.hpp"
 #include "framework/meshing/validate_geometry.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 

@@ -1,4 +1,4 @@
-#include "framework/meshing/joining/join_lines.hpp"
+#include "framework/meshing/joining/plane/join_lines.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/meshing/conforming/outer_boundary.hpp"
+#include "framework/meshing/conforming/plane/outer_boundary.hpp"
 
 namespace sprekk {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/meshing/size_sources.hpp"
+#include "framework/meshing/plane/size_sources.hpp"
 
 #include <algorithm>
 #include <numeric>

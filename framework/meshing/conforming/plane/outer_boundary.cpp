@@ -1,4 +1,4 @@
-#include "framework/meshing/conforming/outer_boundary.hpp"
+#include "framework/meshing/conforming/plane/outer_boundary.hpp"
 
 #include <algorithm>
 #include <limits>

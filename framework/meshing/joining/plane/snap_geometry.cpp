@@ -10,8 +10,8 @@
 
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/meshing/joining/drop_short_segments.hpp"
-#include "framework/meshing/joining/join_lines.hpp"
+#include "framework/meshing/joining/plane/drop_short_segments.hpp"
+#include "framework/meshing/joining/plane/join_lines.hpp"
 
 namespace sprekk {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/meshing/conforming/glue_cuts.hpp"
+#include "framework/meshing/conforming/plane/glue_cuts.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 
 #include "framework/mesh/face_table.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/meshing/conforming/outer_boundary.hpp"
+#include "framework/meshing/conforming/plane/outer_boundary.hpp"
 
 namespace sprekk {
 namespace {
@@ -30,10 +30,10 @@ class OneNode {
 };
 
 /// Per line its edge and the other one at the same place, or nothing if the group is no cut.
-std::vector<std::array<int, 2>> pairs_of(const CurveGroup& group, const FaceTable& edges, const OuterBoundary& boundary,
+std::vector<std::array<int, 2>> pairs_of(const FaceGroup& group, const FaceTable& edges, const OuterBoundary& boundary,
                                          const std::map<int, std::set<std::string>>& groups_of_edge) {
   std::vector<std::array<int, 2>> pairs;
-  for (const auto& [a, b] : group.lines) {
+  for (const auto& [a, b] : group.faces) {
     const int edge = edges.find({a, b});
     const int other = edge == none || !edges.is_outer(edge) ? none : boundary.twin(edge);
     if (other == none) return {};
@@ -51,16 +51,16 @@ void remove_repeated(std::vector<std::array<int, 2>>& lines) {
 
 }  // namespace
 
-bool glue_cuts(RawMesh& mesh, std::vector<CurveGroup>& groups) {
+bool glue_cuts(RawMesh& mesh, std::vector<FaceGroup>& groups) {
   const FaceTable edges(mesh.nodes, mesh.cells);
   const OuterBoundary boundary(mesh.nodes, mesh.cells, edges);
   std::map<int, std::set<std::string>> groups_of_edge;
-  for (const CurveGroup& group : groups)
-    for (const auto& [a, b] : group.lines)
+  for (const FaceGroup& group : groups)
+    for (const auto& [a, b] : group.faces)
       if (const int edge = edges.find({a, b}); edge != none) groups_of_edge[edge].insert(group.name);
   OneNode one(mesh.nodes.size());
-  std::vector<CurveGroup*> cuts;
-  for (CurveGroup& group : groups) {
+  std::vector<FaceGroup*> cuts;
+  for (FaceGroup& group : groups) {
     const auto pairs = pairs_of(group, edges, boundary, groups_of_edge);
     for (const auto& [edge, other] : pairs) {
       one.join(edges.nodes(edge)[0], edges.nodes(other)[1]);
@@ -71,9 +71,9 @@ bool glue_cuts(RawMesh& mesh, std::vector<CurveGroup>& groups) {
   if (cuts.empty()) return false;
   for (Ring& cell : mesh.cells)
     for (int& node : cell) node = one.of(node);
-  for (CurveGroup& group : groups)
-    for (std::array<int, 2>& line : group.lines) line = {one.of(line[0]), one.of(line[1])};
-  for (CurveGroup* cut : cuts) remove_repeated(cut->lines);
+  for (FaceGroup& group : groups)
+    for (std::array<int, 2>& line : group.faces) line = {one.of(line[0]), one.of(line[1])};
+  for (FaceGroup* cut : cuts) remove_repeated(cut->faces);
   return true;
 }
 

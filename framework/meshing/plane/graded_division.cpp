@@ -1,4 +1,4 @@
-#include "framework/meshing/graded_division.hpp"
+#include "framework/meshing/plane/graded_division.hpp"
 
 #include <algorithm>
 #include <cmath>

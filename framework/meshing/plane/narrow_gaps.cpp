@@ -1,4 +1,4 @@
-#include "framework/meshing/narrow_gaps.hpp"
+#include "framework/meshing/plane/narrow_gaps.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "framework/meshing/join_triangles.hpp"
+#include "framework/meshing/plane/join_triangles.hpp"
 
 #include <algorithm>
 #include <numbers>

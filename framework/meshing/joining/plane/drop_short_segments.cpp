@@ -1,4 +1,4 @@
-#include "framework/meshing/joining/drop_short_segments.hpp"
+#include "framework/meshing/joining/plane/drop_short_segments.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -3,7 +3,7 @@
 
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/geometry.hpp"
-#include "framework/meshing/size_sources.hpp"
+#include "framework/meshing/plane/size_sources.hpp"
 
 namespace sprekk {
 

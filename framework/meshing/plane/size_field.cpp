@@ -1,12 +1,12 @@
-#include "framework/meshing/size_field.hpp"
+#include "framework/meshing/plane/size_field.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "framework/mesh/search/segment_tree.hpp"
-#include "framework/meshing/arrangement.hpp"
-#include "framework/meshing/narrow_gaps.hpp"
+#include "framework/meshing/plane/arrangement.hpp"
+#include "framework/meshing/plane/narrow_gaps.hpp"
 
 namespace sprekk {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/meshing/arrangement.hpp"
+#include "framework/meshing/plane/arrangement.hpp"
 
 #include <algorithm>
 #include <array>

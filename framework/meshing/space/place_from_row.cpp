@@ -1,0 +1,28 @@
+#include "framework/meshing/place_from_row.hpp"
+
+#include <cmath>
+
+#include "framework/meshing/space/strike_and_dip.hpp"
+
+namespace sprekk {
+
+void place_from_row(const std::function<double(const std::string& column, const std::string& unit)>& value,
+                    const std::function<bool(const std::string& column)>& has, FractureGeometry& fracture) {
+  const auto positive = [&](const std::string& column) {
+    const double length = value(column, "m");
+    if (length > 0) return length;
+    throw InputError(fracture.origin, "the " + column + " of fracture '" + fracture.name + "' is not positive",
+                     "it is a length", "give it another value");
+  };
+  const Point center(value("x", "m"), value("y", "m"), value("z", "m"));
+  const StrikeAndDip plane{value("strike", "rad"), value("dip", "rad")};
+  if (has("radius")) {
+    const double radius = positive("radius");
+    fracture.ellipse = ellipse(center, plane, radius, radius);
+  } else {
+    const double length = positive("length"), height = positive("height");
+    fracture.points = rectangle(center, plane, length, height);
+  }
+}
+
+}  // namespace sprekk
