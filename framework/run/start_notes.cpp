@@ -9,6 +9,7 @@
 
 #include "framework/assembly/heeds_stages.hpp"
 #include "framework/linear/direct/blas_memory.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/network_shape.hpp"
 #include "framework/meshing/regions.hpp"

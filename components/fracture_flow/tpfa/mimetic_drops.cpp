@@ -11,9 +11,9 @@ std::vector<std::pair<int, double>> MimeticDrops::at(int cell, int ridge) const 
   const FaceRidges& ridges = mesh_->fracture_cells[cell].ridges;
   const auto is_here = [&](int other) { return mesh_->ridges[other].center == mesh_->ridges[ridge].center; };
   const auto place = std::ranges::find_if(ridges, is_here) - ridges.begin();
-  SPREKK_EXPECT(place < static_cast<long>(ridges.size()), cell, ridge);
-  for (std::size_t j = 0; j < ridges.size(); ++j) {
-    const double factor = of_cell_[cell](place, static_cast<Eigen::Index>(j));
+  SPREKK_EXPECT(is_index(place, ridges.size()), cell, ridge);
+  for (int j = 0; j < static_cast<int>(ridges.size()); ++j) {
+    const double factor = of_cell_[cell](place, j);
     if (factor == 0) continue;
     // What flows out at a junction goes to each of the other cells there.
     const int junction = junction_of_ridge_[ridges[j]];

@@ -16,8 +16,8 @@ std::vector<std::pair<int, double>> along_fracture(const Mesh& mesh, int cell, c
   // The linear function that fits the centres best; its value at x is the first coefficient.
   Eigen::MatrixXd basis(around.size(), dimension);
   for (std::size_t i = 0; i < around.size(); ++i)
-    basis.row(static_cast<Eigen::Index>(i))
-        << 1, ((mesh.fracture_cells[around[i]].center - x) / home.size()).transpose() * home.tangents;
+    basis.row(static_cast<Eigen::Index>(i)) << 1,
+        ((mesh.fracture_cells[around[i]].center - x) / home.size()).transpose() * home.tangents;
   const LeastSquares fit(basis);
   if (fit.rank() < dimension) return {{cell, 1.0}};
   const Eigen::MatrixXd inverse = fit.pseudo_inverse();

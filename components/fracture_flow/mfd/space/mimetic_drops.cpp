@@ -14,7 +14,7 @@ Eigen::MatrixXd beside_two_point_fluxes(const Mesh& mesh, int cell) {
   Eigen::MatrixXd midpoints(count, dimension - 1), normals(count, dimension - 1);
   Vector h(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const int ridge = of.ridges[static_cast<std::size_t>(k)];
+    const int ridge = of.ridges[static_cast<int>(k)];
     const Point out = mesh.ridges[ridge].center - of.center;
     midpoints.row(k) = out.transpose() * of.tangents;
     h[k] = distance_to_ridge(mesh, cell, ridge) / mesh.ridges[ridge].measure;

@@ -30,11 +30,12 @@ void add_place(Spec& spec, const std::shared_ptr<FracturePlace>& place) {
                  .doc = "The direction of the horizontal line in a rectangle, disc or ellipse, clockwise from north "
                         "(y); it dips to the right of it. By default 0."});
   usually(spec, "strike", usual_angle());
-  spec.quantity("dip", place->dip,
-                {.unit = "rad",
-                 .range = between(0, std::numbers::pi),
-                 .doc = "How steeply it dips: 0 is horizontal, 90 degrees upright. By default 90 degrees. The plus side "
-                        "is below it, or to the left of the strike."});
+  spec.quantity(
+      "dip", place->dip,
+      {.unit = "rad",
+       .range = between(0, std::numbers::pi),
+       .doc = "How steeply it dips: 0 is horizontal, 90 degrees upright. By default 90 degrees. The plus side "
+              "is below it, or to the left of the strike."});
   spec.quantity("length", place->length,
                 {.unit = "m", .range = positive(), .doc = "The length of a rectangle along its strike."});
   spec.quantity("height", place->height,
@@ -142,15 +143,17 @@ std::vector<Data> read_surfaces(const Node& node) {
 
 Spec region_spec(const std::string& name, const Origin& origin, std::function<void(RegionGeometry)> keep) {
   const auto input = std::make_shared<RegionInput>();
-  Spec spec("region", "A part of the " + medium_name() + " that may have properties of its own: what its box, its "
-                      "half-space and its layer, as far as they are given, have in common.");
+  Spec spec("region", "A part of the " + medium_name() +
+                          " that may have properties of its own: what its box, its "
+                          "half-space and its layer, as far as they are given, have in common.");
   spec.section("box", region_box_spec(input), {.doc = "What lies in a box."}, &input->has_box);
   spec.point("point", input->point, {.unit = "m", .doc = "A point of a plane; the region lies on one side of it."});
   spec.point("normal", input->normal, {.unit = "", .doc = "The direction from the plane into the region."});
-  spec.custom("between", [input](const Node& node) { input->between = read_surfaces(node); },
-              {.unit = "m",
-               .doc = "The heights z of the bottom and the top of a layer: numbers, or expressions of x and y. The mesh "
-                      "conforms to those that are planes; cells belong to the region in which their centre lies."});
+  spec.custom(
+      "between", [input](const Node& node) { input->between = read_surfaces(node); },
+      {.unit = "m",
+       .doc = "The heights z of the bottom and the top of a layer: numbers, or expressions of x and y. The mesh "
+              "conforms to those that are planes; cells belong to the region in which their centre lies."});
   write_instead(spec.name(), "polygon", "write box: …, point: … and normal: …, or between: […] for a region in space");
   spec.check([input, name, origin, keep = std::move(keep)](const Node& whole) {
     RegionGeometry region{name, {}, origin};
