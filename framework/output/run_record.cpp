@@ -4,6 +4,7 @@
 
 #include "framework/output/atomic_file.hpp"
 #include "framework/output/build_info.hpp"
+#include "framework/types.hpp"
 
 namespace sprekk {
 namespace {
@@ -69,6 +70,7 @@ Json topologies_json(const std::vector<RunRecord::Topology>& topologies) {
 std::string RunRecord::json(const Profile& profile) const {
   const Host machine = host();
   const Json whole = {
+      {"dimension", dimension},
       {"exit", {{"code", exit_code}, {"reason", exit_reason}}},
       {"results", results},
       {"notes", notes_json(notes)},

@@ -14,13 +14,19 @@ NUMBER_TYPES = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i
 class Grid:
     """Points (n, 3), cells (m, points per cell), and the arrays on them by name.
 
-    Where there are quadrilaterals the cells have four points, and triangles between them repeat their last one."""
+    All cells have as many points as the largest ones have; smaller ones repeat their last point."""
 
     points: np.ndarray
     cells: np.ndarray
     cell_data: dict = field(default_factory=dict)
     point_data: dict = field(default_factory=dict)
     component_names: dict = field(default_factory=dict)  # {array: [name of each component]}, of vectors and tensors
+    types: np.ndarray = None  # VTK's number of each cell's shape; by default that of lines, triangles or quadrilaterals
+
+    def __post_init__(self):
+        if self.types is None:
+            corners = self.cells.shape[1] - (self.cells[:, -1] == self.cells[:, -2]) * (self.cells.shape[1] > 2)
+            self.types = np.choose(corners - 2, (3, 5, 9))
 
     def triangles(self):
         """Triangles (k, 3) that cover the cells, and the cell of each: a quadrilateral is two of them."""
@@ -31,24 +37,35 @@ class Grid:
                 np.concatenate([np.arange(len(self.cells)), second]))
 
     def centres_and_sizes(self):
-        """Centres of gravity (m, 2), and the areas of cells or the lengths of lines."""
-        if self.cells.shape[1] == 2:
-            ends = self.points[self.cells][:, :, :2]
-            return ends.mean(axis=1), np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-        triangles, cell = self.triangles()
-        corners = self.points[triangles][:, :, :2]
-        a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        areas = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+        """Centres of gravity (m, 3), and the volumes of cells, their areas, or the lengths of lines."""
+        parts, cell = self.simplices()
+        corners = self.points[parts]
+        edges = corners[:, 1:] - corners[:, :1]
+        # The determinant of Gram's matrix is the square of the measure of a simplex times its dimension's factorial.
+        grams = np.einsum("nik,njk->nij", edges, edges)
+        measures = np.sqrt(np.maximum(np.linalg.det(grams), 0)) / (1, 1, 2, 6)[edges.shape[1]]
         count = len(self.cells)
-        sizes = np.bincount(cell, areas, count)
-        moments = areas[:, None] * corners.mean(axis=1)
-        centres = np.stack([np.bincount(cell, moments[:, k], count) for k in range(2)], axis=1) / sizes[:, None]
+        sizes = np.bincount(cell, measures, count)
+        moments = measures[:, None] * corners.mean(axis=1)
+        centres = np.stack([np.bincount(cell, moments[:, k], count) for k in range(3)], axis=1) / sizes[:, None]
         return centres, sizes
+
+    def simplices(self):
+        """Lines, triangles or tetrahedra that make up the cells, and the cell of each."""
+        divided = {3: [(0, 1)], 5: [(0, 1, 2)], 9: [(0, 1, 2), (0, 2, 3)], 10: [(0, 1, 2, 3)],
+                   12: [(0, 1, 3, 7), (0, 1, 7, 5), (0, 5, 7, 4), (1, 2, 3, 7), (1, 2, 7, 6), (1, 6, 7, 5)],  # of hexahedra
+                   13: [(0, 1, 2, 5), (0, 1, 5, 4), (0, 4, 5, 3)]}  # of wedges
+        parts, cells = [], []
+        for shape in np.unique(self.types):
+            of_shape = np.flatnonzero(self.types == shape)
+            for corners in divided[shape]:
+                parts.append(self.cells[of_shape][:, list(corners)])
+                cells.append(of_shape)
+        return (np.concatenate(parts), np.concatenate(cells)) if parts else (np.zeros((0, 2), int), np.zeros(0, int))
 
 
 def read_vtu(path):
-    """A .vtu file as Sprekk writes it: raw appended data, not compressed, triangles and
-    quadrilaterals, or lines."""
+    """A .vtu file as Sprekk writes it: raw appended data, not compressed."""
     content = Path(path).read_bytes()
     head, marker, tail = content.partition(b"<AppendedData")
     if not marker:
@@ -79,7 +96,7 @@ def read_vtu(path):
     points = values(piece.find("Points/DataArray")).reshape(-1, 3)
     names = {array.get("Name"): [array.get(f"ComponentName{i}") for i in range(int(array.get("NumberOfComponents")))]
              for section in ("CellData", "PointData") for array in piece.find(section) if array.get("ComponentName0")}
-    return Grid(points, connectivity, named("CellData"), named("PointData"), names)
+    return Grid(points, connectivity, named("CellData"), named("PointData"), names, cells["types"])
 
 
 def read_pvd(path):

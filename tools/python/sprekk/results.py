@@ -29,31 +29,32 @@ def found(data, name, what):
 class Fields:
     """The fields of a run on one mesh at a written time; fields["pore.pressure"] are values of cells (or of points).
 
-    Of vectors, x and y are the two columns, and of stresses xx, yy, xy the three; fields["rock.stress.xy"] is one of them. On
-    fractures, components along and across them are fields of their own."""
+    Of vectors, x and y (in space also z) are the columns, and of stresses xx, yy, xy the three; fields["rock.stress.xy"] is one of
+    them. On fractures, components along and across them are fields of their own. `dimension` is 2 in a plane, 3 in space."""
 
-    def __init__(self, time, grid):
+    def __init__(self, time, grid, dimension=2):
         self.time = time  # s
         self.grid = grid
+        self.dimension = dimension
 
     @property
     def points(self):
-        """(n, 2), m"""
-        return self.grid.points[:, :2]
+        """(n, dimension), m"""
+        return self.grid.points[:, :self.dimension]
 
     @property
     def cells(self):
-        """(m, 2 to 4): points of each cell. Among quadrilaterals, a triangle repeats its last point."""
+        """(m, 2 to 8): points of each cell. Among larger cells, smaller ones repeat their last point."""
         return self.grid.cells
 
     @cached_property
     def centres(self):
-        """(m, 2): centres of gravity of cells, m"""
-        return self.grid.centres_and_sizes()[0]
+        """(m, dimension): centres of gravity of cells, m"""
+        return self.grid.centres_and_sizes()[0][:, :self.dimension]
 
     @cached_property
     def sizes(self):
-        """Areas of cells (m^2), or lengths of cells on fractures (m)."""
+        """Areas of cells (m^2; volumes in space, m^3), or lengths of cells on fractures (m; areas in space, m^2)."""
         return self.grid.centres_and_sizes()[1]
 
     @property
@@ -69,9 +70,9 @@ class Fields:
             if whole == without_unit(key) and component in names:
                 return data[key][:, names.index(component)]
         values = found(data, name, "field")
-        # Vectors have a third component, 0, for ParaView; tensors do not.
+        # In a plane vectors have a third component, 0, for ParaView; tensors do not.
         names = next((names for key, names in self.grid.component_names.items() if name in (key, without_unit(key))), [])
-        return values[:, :2] if names[:1] == ["x"] else values
+        return values[:, :self.dimension] if names[:1] == ["x"] else values
 
     def mean(self, name):
         """The mean over the area, or over the length of fractures."""
@@ -143,7 +144,7 @@ class Results:
         nearest, file = entries[-1] if time is None else min(entries, key=lambda entry: abs(entry[0] - time))
         if time is not None and abs(nearest - time) > SAME_TIME * max(abs(nearest), abs(time)):
             raise KeyError(f"no fields at {time:g} s (the nearest written time is {nearest:g} s) see Results.written()")
-        return Fields(nearest, read_vtu(file))
+        return Fields(nearest, read_vtu(file), self.record.get("dimension", 2))
 
     def fractures(self, time=None):
         """The fields on fractures at a written time; ["fracture"] is the number of each cell's fracture."""
