@@ -17,9 +17,9 @@ namespace {
 
 const std::vector<std::string>& columns_of_geometry() {
   static const std::vector<std::string> known =
-      dimension == 2 ? std::vector<std::string>{"name", "size", "x1", "y1", "x2", "y2", "x", "y"}
-                     : std::vector<std::string>{"name", "size",   "x",      "y",      "z",
-                                                "strike", "dip", "length", "height", "radius"};
+      dimension == 2
+          ? std::vector<std::string>{"name", "size", "x1", "y1", "x2", "y2", "x", "y"}
+          : std::vector<std::string>{"name", "size", "x", "y", "z", "strike", "dip", "length", "height", "radius"};
   return known;
 }
 
@@ -75,13 +75,15 @@ class TableReader {
     const auto has = [this](std::initializer_list<const char*> names) {
       return std::ranges::all_of(names, [this](const char* name) { return find(name).has_value(); });
     };
-    const bool has_plane = has({"x", "y", "z", "strike", "dip"}), has_points = has({"name", "x", "y", "z"}) && !find("strike");
+    const bool has_plane = has({"x", "y", "z", "strike", "dip"}),
+               has_points = has({"name", "x", "y", "z"}) && !find("strike");
     const bool is_sized = has({"length", "height"}) != has({"radius"});
     if ((has_plane && is_sized) || (has_points && !find("dip"))) return;
-    throw refused("lacks columns",
-                  "fractures have x, y, z, strike, dip and either length, height or radius, and points of polygons have "
-                  "name, x, y, z",
-                  "give it one of these sets of columns");
+    throw refused(
+        "lacks columns",
+        "fractures have x, y, z, strike, dip and either length, height or radius, and points of polygons have "
+        "name, x, y, z",
+        "give it one of these sets of columns");
   }
 
   std::optional<std::size_t> find(const std::string& name) const {
@@ -133,7 +135,8 @@ class TableReader {
       const auto value = [&](const std::string& column, const std::string& unit) {
         return this->number(row, column) * heading_scale(csv_.headings[*find(column)], unit, table_.file);
       };
-      place_from_row(value, [this](const std::string& column) { return find(column).has_value(); }, fractures.back());
+      place_from_row(
+          value, [this](const std::string& column) { return find(column).has_value(); }, fractures.back());
     }
     return fractures;
   }
@@ -224,8 +227,7 @@ std::string fracture_table(const std::vector<FractureGeometry>& fractures) {
       text += fmt::format("{},{},{},{},{}{}\n", fracture.name, points[0].x(), points[0].y(), points[1].x(),
                           points[1].y(), further);
     else
-      for (const Point& point : points)
-        text += fmt::format("{},{}{}\n", fracture.name, fmt::join(point, ","), further);
+      for (const Point& point : points) text += fmt::format("{},{}{}\n", fracture.name, fmt::join(point, ","), further);
   }
   return text;
 }

@@ -23,7 +23,8 @@ struct FractureTable {
 /// one fracture. Further columns: `name`, and `size`, the length of its cells. Lengths are in m, or in the unit that a
 /// heading says, like x1[mm]. Other columns hold numbers that data may take ({column: friction}); of a polyline those
 /// of its first row count. In space each row is a fracture with the columns x, y, z, strike, dip (rad, or strike[deg])
-/// and length, height or radius; or a point of a polygon with name, x, y, z. Throws InputError with the file's line for what is missing, unknown or no finite number.
+/// and length, height or radius; or a point of a polygon with name, x, y, z. Throws InputError with the file's line for
+/// what is missing, unknown or no finite number.
 std::vector<FractureGeometry> read_fracture_table(const FractureTable& table);
 
 /// The text of a CSV file from which read_fracture_table reads these fractures to the last bit, with their names, the

@@ -5,7 +5,8 @@
 namespace sprekk {
 
 double far_size(const Geometry& geometry, const MeshOptions& options) {
-  constexpr double cells_across = dimension == 2 ? 50 : 20;  // of the longer side: where a scene says nothing about sizes
+  constexpr double cells_across =
+      dimension == 2 ? 50 : 20;  // of the longer side: where a scene says nothing about sizes
   return options.size.value_or(geometry.box.size().maxCoeff() / cells_across);
 }
 

@@ -34,7 +34,7 @@ struct FractureGeometry {
   std::vector<Point> points;                  ///< m; none of an ellipse
   std::optional<double> size = std::nullopt;  ///< length of its cells, m; default MeshOptions::fracture_size
   Origin origin;
-  std::vector<ColumnValue> values = {};  ///< further columns of its table
+  std::vector<ColumnValue> values = {};           ///< further columns of its table
   std::optional<Ellipse> ellipse = std::nullopt;  ///< in space, instead of points
 };
 
@@ -96,7 +96,7 @@ struct MeshOptions {
   double gap_edges = 0.5;
   double gap_length = 2;  ///< gaps between parallel walls are not refined if longer than so many times their width
   std::optional<double> gap_size =
-      std::nullopt;                   ///< least edge length in gaps, m; default a 500th of the shortest size
+      std::nullopt;                       ///< least edge length in gaps, m; default a 500th of the shortest size
   std::array<int, dimension> cells = {};  ///< structured: along each axis; 0: as many as `size` gives
   double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge at the node, 0 to 0.4
   int seed = 1;           ///< of the random distortion

@@ -40,7 +40,7 @@ Kind kind_of(int type) {
   }
 }
 
-constexpr int pyramid = 7;           // its type
+constexpr int pyramid = 7;          // its type
 constexpr int most_tags = 100'000;  // of an element: more is a file that is damaged
 
 /// Whether the type is a line with more than two nodes.
@@ -213,14 +213,14 @@ class Parser {
   Kind require_kind(int type, std::size_t place) const {
     const Kind kind = kind_of(type);
     if (kind.node_count > 0) return kind;
-    cursor_.fail_at(place,
-                    std::string("the file holds elements that are no ") +
-                        (is_curved_line(type) ? "two-node lines"
-                         : dimension == 2     ? "three-node triangles or four-node quadrilaterals"
-                         : type == pyramid    ? "tetrahedra, wedges or hexahedra"
-                                              : "elements of first order") +
-                        " (gmsh type " + std::to_string(type) + "): mesh it with 'gmsh -" + std::to_string(dimension) +
-                        " -order 1'" + (dimension == 3 && type == pyramid ? ", without pyramids" : ""));
+    cursor_.fail_at(place, std::string("the file holds elements that are no ") +
+                               (is_curved_line(type) ? "two-node lines"
+                                : dimension == 2     ? "three-node triangles or four-node quadrilaterals"
+                                : type == pyramid    ? "tetrahedra, wedges or hexahedra"
+                                                     : "elements of first order") +
+                               " (gmsh type " + std::to_string(type) + "): mesh it with 'gmsh -" +
+                               std::to_string(dimension) + " -order 1'" +
+                               (dimension == 3 && type == pyramid ? ", without pyramids" : ""));
   }
 
   template <class Number>

@@ -33,9 +33,9 @@ class MshReader {
   RawMesh read() {
     read_nodes();
     read_cells();
-    if (mesh_.cells.empty()) throw InputError(std::string("the file holds no ") +
-                                                   (dimension == 2 ? "triangles and no quadrilaterals"
-                                                                   : "tetrahedra, no wedges and no hexahedra"));
+    if (mesh_.cells.empty())
+      throw InputError(std::string("the file holds no ") +
+                       (dimension == 2 ? "triangles and no quadrilaterals" : "tetrahedra, no wedges and no hexahedra"));
     read_faces();
     return std::move(mesh_);
   }
@@ -177,9 +177,8 @@ class MshReader {
       const auto [known, is_new] = first.try_emplace(corners, c);
       if (is_new) continue;
       const MshFile::Element &one = file_.cells[known->second], &other = file_.cells[c];
-      fail(other.place,
-           "a cell is there twice, before at " + file_.where(one.place) + " (a " +
-               (dimension == 2 ? "surface" : "volume") + " that belongs to two groups?)");
+      fail(other.place, "a cell is there twice, before at " + file_.where(one.place) + " (a " +
+                            (dimension == 2 ? "surface" : "volume") + " that belongs to two groups?)");
     }
   }
 
@@ -217,8 +216,7 @@ class MshReader {
       } else if (outer == 0) {
         add_fracture(group);
       } else {
-        throw InputError(what +
-                         " lies partly inside and partly on the boundary (it is neither a side nor a fracture)");
+        throw InputError(what + " lies partly inside and partly on the boundary (it is neither a side nor a fracture)");
       }
     }
     notes_ = require_conforming(mesh_, faces, has_side);

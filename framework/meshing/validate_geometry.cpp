@@ -118,16 +118,13 @@ void validate_cell_count(const Geometry& geometry, const MeshOptions& options) {
   if (estimate > most_cells) {
     MeshOptions without_gaps = options;
     without_gaps.gap_edges = 0;
-    if (options.kind == MeshOptions::Kind::unstructured &&
-        wanted_cells(geometry, without_gaps) <= most_cells) {
+    if (options.kind == MeshOptions::Kind::unstructured && wanted_cells(geometry, without_gaps) <= most_cells) {
       throw InputError(options.origin, "narrow gaps ask for about " + number(estimate) + " triangles",
                        "at most " + number(most_cells) + " are made",
                        "choose a larger gap_size, or gap_edges: 0 to leave gaps alone");
     }
-    throw InputError(
-        options.origin,
-        "the mesh sizes ask for about " + number(estimate) + " " + cells_of(options),
-        "at most " + number(most_cells) + " are made", "choose larger sizes; " + box_text(geometry.box));
+    throw InputError(options.origin, "the mesh sizes ask for about " + number(estimate) + " " + cells_of(options),
+                     "at most " + number(most_cells) + " are made", "choose larger sizes; " + box_text(geometry.box));
   }
 }
 

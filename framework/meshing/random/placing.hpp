@@ -9,8 +9,8 @@
 
 namespace sprekk {
 
-/// The points of a fracture in a random direction, from its middle, m: in a plane a line; in space a square of this edge
-/// length, two edges of which are horizontal.
+/// The points of a fracture in a random direction, from its middle, m: in a plane a line; in space a square of this
+/// edge length, two edges of which are horizontal.
 std::vector<Point> points_around_middle(const RandomFractures& set, double length, RandomNumbers& directions);
 
 /// Tells of the points of one fracture after the other whether it keeps away from the sides of the box, the fractures

@@ -54,9 +54,10 @@ struct Drawn {
 /// `room`: the area, or in space the volume, for their middles.
 std::vector<Drawn> draw_shapes(const RandomFractures& set, double room) {
   const auto refused = [&](const std::string& what, const std::string& advice) {
-    return InputError(set.origin, fmt::format("the random set '{}' {}", set.name, what),
-                      fmt::format("the {} for its middles is {:.4g} m^{}", dimension == 2 ? "area" : "volume", room, dimension),
-                      advice);
+    return InputError(
+        set.origin, fmt::format("the random set '{}' {}", set.name, what),
+        fmt::format("the {} for its middles is {:.4g} m^{}", dimension == 2 ? "area" : "volume", room, dimension),
+        advice);
   };
   RandomNumbers lengths(set.seed, set.name + " length"), angles(set.seed, set.name + " angle");
   const double wanted = set.intensity ? *set.intensity * room : 0;
@@ -123,7 +124,8 @@ void draw_fractures(const RandomFractures& set, Geometry& geometry) {
           fmt::format("there is no place for fracture {} of {} of the random set '{}'", i + 1, drawn.size(), set.name),
           fmt::format("it is {:.4g} m long, and must lie in the box, {:.3g} m or more from {} of others, "
                       "sides and crossings, and cross others at {:.3g} degrees or more",
-                      length, set.least_gap, dimension == 2 ? "ends" : "rims", set.least_angle * 180 / std::numbers::pi),
+                      length, set.least_gap, dimension == 2 ? "ends" : "rims",
+                      set.least_angle * 180 / std::numbers::pi),
           "ask for fewer or shorter fractures, or lower 'gap' or 'angle'");
   }
 }

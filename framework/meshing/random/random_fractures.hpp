@@ -23,7 +23,8 @@ struct LengthLaw {
   bool operator==(const LengthLaw&) const = default;
 };
 
-/// A set of straight fractures, in space of squares: how many, how long, which way, where, and how far from one another.
+/// A set of straight fractures, in space of squares: how many, how long, which way, where, and how far from one
+/// another.
 struct RandomFractures {
   std::string name;  ///< they are called name_1, name_2, …; the longest first
   Origin origin;
@@ -32,7 +33,7 @@ struct RandomFractures {
   std::optional<double> density;    ///< P20: fractures for each area, 1/m^2; in space P30: for each volume, 1/m^3
   std::optional<double> intensity;  ///< P21: length for each area, 1/m; in space P32: area for each volume
   LengthLaw length;
-  double mean_angle = 0;      ///< rad, counter-clockwise from the x axis; in a plane
+  double mean_angle = 0;                 ///< rad, counter-clockwise from the x axis; in a plane
   double mean_strike = 0, mean_dip = 0;  ///< rad, clockwise from north and down to the right of it; in space
   /// Of von Mises' law about the mean, in space of Fisher's law of normals; 0: all directions are equally likely.
   double concentration = 0;
@@ -48,8 +49,8 @@ struct RandomFractures {
 /// - no end of it or of another fracture or edge of a region is nearer than `least_gap` to the other line,
 /// - it crosses others at `least_angle` or more, and no two crossings are nearer to each other than `least_gap`,
 /// so that places are uniform in the region but for these conditions. The longest are placed first. Coordinates are
-/// multiples of a power of ten, below a 1e-6th of the box, so that a table holds them with few digits. In space rims are
-/// what ends are in a plane, coordinates have all digits, and lines along which fractures cross may be near to one
+/// multiples of a power of ten, below a 1e-6th of the box, so that a table holds them with few digits. In space rims
+/// are what ends are in a plane, coordinates have all digits, and lines along which fractures cross may be near to one
 /// another. Throws
 /// InputError when there is no place for all of them, or when the set has none or more than most_random_fractures.
 void draw_fractures(const RandomFractures& set, Geometry& geometry);

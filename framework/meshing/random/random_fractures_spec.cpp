@@ -163,22 +163,20 @@ Spec random_fractures_spec(RandomFractures& set) {
     bool has_orientation = false, has_region = false;
   };
   const auto input = std::make_shared<Input>();
-  Spec spec(
-      "random",
-      std::string(dimension == 2 ? "Straight fractures" : "Square fractures") +
-          " drawn at random, the same on every machine; 'sprekk fractures' prints them as a table.");
+  Spec spec("random", std::string(dimension == 2 ? "Straight fractures" : "Square fractures") +
+                          " drawn at random, the same on every machine; 'sprekk fractures' prints them as a table.");
   spec.quantity("number", input->number, {.unit = "", .range = between(1, most_random_fractures), .doc = "How many."});
   spec.quantity(
       "density", set.density,
       {.unit = dimension == 2 ? "1/m^2" : "1/m^3",
        .range = positive(),
-       .doc = std::string("How many for each ") + (dimension == 2 ? "area of the region (P20)" : "volume of the region (P30)") +
-              ", instead of number."});
+       .doc = std::string("How many for each ") +
+              (dimension == 2 ? "area of the region (P20)" : "volume of the region (P30)") + ", instead of number."});
   spec.quantity("intensity", set.intensity,
                 {.unit = "1/m",
                  .range = positive(),
                  .doc = std::string(dimension == 2 ? "Their length for each area of the region (P21)"
-                                                  : "Their area for each volume of the region (P32)") +
+                                                   : "Their area for each volume of the region (P32)") +
                         ", to half of the last one, instead of number."});
   spec.section("length", length_spec(std::make_shared<LengthInput>(), set.length),
                {.doc = "How long.", .required = true});

@@ -17,10 +17,10 @@ class FlatShape {
   explicit FlatShape(const std::vector<Point>& corners);
   explicit FlatShape(const FractureGeometry& fracture);
 
-  const std::vector<Point>& corners() const { return corners_; }          ///< as given
-  const std::vector<FlatPoint>& outline() const { return outline_; }      ///< counter-clockwise as seen against the normal
-  const Point& normal() const { return axes_[2]; }                        ///< unit; the corners turn about it
-  double area() const { return area_; }                                   ///< m^2; 0 where it has no plane
+  const std::vector<Point>& corners() const { return corners_; }      ///< as given
+  const std::vector<FlatPoint>& outline() const { return outline_; }  ///< counter-clockwise as seen against the normal
+  const Point& normal() const { return axes_[2]; }                    ///< unit; the corners turn about it
+  double area() const { return area_; }                               ///< m^2; 0 where it has no plane
   double height(const Point& x) const { return (x - origin_).dot(normal()); }  ///< m, above the plane
   FlatPoint in_plane(const Point& x) const { return {(x - origin_).dot(axes_[0]), (x - origin_).dot(axes_[1])}; }
   Point in_space(const FlatPoint& x) const { return origin_ + x.x() * axes_[0] + x.y() * axes_[1]; }

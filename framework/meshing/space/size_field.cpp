@@ -48,7 +48,8 @@ double SizeField::estimated_cells() const {
   const double per_volume = 6 * std::sqrt(2.0);
   const auto cubed = [](double size) { return size * size * size; };
   double integral = box_.size().prod() / cubed(far_size_);
-  // For h = size + growth * distance: over the layers on both sides of a fracture, and over the surroundings of its rim.
+  // For h = size + growth * distance: over the layers on both sides of a fracture, and over the surroundings of its
+  // rim.
   for (const Source& source : sources_) {
     if (source.size < far_size_)
       integral += source.shape.area() / growth_ * (1 / (source.size * source.size) - 1 / (far_size_ * far_size_));

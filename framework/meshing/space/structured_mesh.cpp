@@ -18,17 +18,15 @@ namespace {
 using CellShape = MeshOptions::Shape;
 
 /// The grid's nodes, and which diagonals its cells have. A node is even along an axis when its number plus the parity
-/// is. Diagonals lead from nodes that are even along both or all of their axes to those that are odd along them, so that
-/// neighbours agree.
+/// is. Diagonals lead from nodes that are even along both or all of their axes to those that are odd along them, so
+/// that neighbours agree.
 struct Grid {
   Box box;
   std::array<int, 3> cells;
   CellShape shape;
   std::array<int, 3> parity;
 
-  int node(const std::array<int, 3>& at) const {
-    return at[0] + (cells[0] + 1) * (at[1] + (cells[1] + 1) * at[2]);
-  }
+  int node(const std::array<int, 3>& at) const { return at[0] + (cells[0] + 1) * (at[1] + (cells[1] + 1) * at[2]); }
   Point position(const std::array<int, 3>& at) const {
     Point x;
     for (int axis = 0; axis < 3; ++axis)
@@ -48,8 +46,8 @@ struct Grid {
   void add_cell(const std::array<int, 3>& cell, RawMesh& mesh) const {
     const auto at = [&](int x, int y, int z) { return corner(cell, {x, y, z}); };
     if (shape == CellShape::hexahedra) {
-      mesh.cells.push_back({at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1),
-                            at(0, 1, 1)});
+      mesh.cells.push_back(
+          {at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1)});
     } else if (shape == CellShape::wedges) {
       mesh.cells.push_back({at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1)});
       mesh.cells.push_back({at(0, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 1, 1), at(0, 1, 1)});
@@ -160,7 +158,8 @@ std::optional<Astray> add_fractures(const Grid& grid, const Geometry& geometry, 
     }
   }
   for (const RegionGeometry& region : geometry.regions)
-    if (const auto at = cut_cell(mesh, region, tolerance)) return Astray{"region '" + region.name + "'", region.origin, *at};
+    if (const auto at = cut_cell(mesh, region, tolerance))
+      return Astray{"region '" + region.name + "'", region.origin, *at};
   return std::nullopt;
 }
 

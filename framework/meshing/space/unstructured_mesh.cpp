@@ -18,8 +18,8 @@
 namespace sprekk {
 namespace {
 
-/// gmsh meshes a box near the origin of size between 1 and 2, since its tolerances are absolute. The scale is a power of
-/// two, so that it costs no digits.
+/// gmsh meshes a box near the origin of size between 1 and 2, since its tolerances are absolute. The scale is a power
+/// of two, so that it costs no digits.
 struct Frame {
   Point origin;
   double scale;

@@ -89,11 +89,12 @@ void validate_polygon(const Box& box, const FractureGeometry& fracture, double s
                      "move one of them");
   const double off = shape.farthest_from_plane();
   if (off > flat * extent)
-    throw InputError(fracture.origin, what + " is not flat",
-                     fmt::format("a point is {:.3g} m off the plane through its points", off),
-                     fmt::format("give points with more digits (up to {:.1g} m is flat), cut it into triangles, or give "
-                                 "center, strike and dip",
-                                 flat * extent));
+    throw InputError(
+        fracture.origin, what + " is not flat",
+        fmt::format("a point is {:.3g} m off the plane through its points", off),
+        fmt::format("give points with more digits (up to {:.1g} m is flat), cut it into triangles, or give "
+                    "center, strike and dip",
+                    flat * extent));
   for (int axis = 0; axis < dimension; ++axis)
     for (const double side : {box.low[axis], box.high[axis]})
       if (std::ranges::all_of(points, [&](const Point& x) { return std::abs(x[axis] - side) < tolerance; }))
@@ -111,8 +112,7 @@ void validate_polygon(const Box& box, const FractureGeometry& fracture, double s
 FlatPoint inner_point(const FlatShape& shape) {
   const auto& outline = shape.outline();
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const FlatPoint middle =
-        (outline[i] + outline[(i + 1) % outline.size()] + outline[(i + 2) % outline.size()]) / 3;
+    const FlatPoint middle = (outline[i] + outline[(i + 1) % outline.size()] + outline[(i + 2) % outline.size()]) / 3;
     if (shape.contains(middle, 0)) return middle;
   }
   return outline[0];
@@ -120,7 +120,9 @@ FlatPoint inner_point(const FlatShape& shape) {
 
 /// A place that two polygons in one plane both cover, if there is one.
 const Point* common_place(const FlatShape& one, const FlatShape& other, double tolerance, Point& at) {
-  const auto covers = [&](const FlatShape& shape, const Point& x) { return shape.contains(shape.in_plane(x), tolerance); };
+  const auto covers = [&](const FlatShape& shape, const Point& x) {
+    return shape.contains(shape.in_plane(x), tolerance);
+  };
   for (const auto& [a, b] : {std::pair(&one, &other), std::pair(&other, &one)}) {
     at = a->in_space(inner_point(*a));
     if (covers(*b, at)) return &at;
@@ -209,7 +211,8 @@ void validate_region(const Box& box, const RegionGeometry& region) {
   for (const HalfSpace& half : region.half_spaces)
     if (!half.point.allFinite() || !half.normal.allFinite() || !(half.normal.norm() > 0))
       throw InputError(region.origin, what + " has a plane without a direction",
-                       "its normal is " + to_text(half.normal) + " at " + to_text(half.point), "write normal: [0, 0, 1]");
+                       "its normal is " + to_text(half.normal) + " at " + to_text(half.point),
+                       "write normal: [0, 0, 1]");
   (void)box;
 }
 

@@ -117,11 +117,12 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                {.doc = "The " + medium_name() + (dimension == 2 ? " as a rectangle." : " as a box.")});
   spec.text(
       "file", geometry.file,
-      {.doc = dimension == 2
-                  ? "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: "
-                    "groups of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."
-                  : "A gmsh mesh file of tetrahedra, wedges and hexahedra instead of a box, relative to the scene: groups "
-                    "of surfaces are sides (on the boundary) or fractures (inside), groups of volumes are regions."});
+      {.doc =
+           dimension == 2
+               ? "A gmsh mesh file of triangles and convex quadrilaterals instead of a box, relative to the scene: "
+                 "groups of curves are sides (on the boundary) or fractures (inside), groups of surfaces are regions."
+               : "A gmsh mesh file of tetrahedra, wedges and hexahedra instead of a box, relative to the scene: groups "
+                 "of surfaces are sides (on the boundary) or fractures (inside), groups of volumes are regions."});
   const auto sets = std::make_shared<std::vector<RandomFractures>>();
   // The short form `fractures: {table: FILE}` has been expanded by expand_fracture_table.
   spec.named_sections(
@@ -182,8 +183,7 @@ void take_cells(const Node& whole, const std::vector<double>& cells, MeshOptions
   constexpr double most = 1e7;
   const auto is_count = [](double count) { return count == std::floor(count) && count <= most; };
   if (cells.size() != dimension || !std::ranges::all_of(cells, is_count)) {
-    throw InputError(origin,
-                     std::string("cells are not ") + (dimension == 2 ? "two" : "three") + " whole numbers",
+    throw InputError(origin, std::string("cells are not ") + (dimension == 2 ? "two" : "three") + " whole numbers",
                      "they count the " + cells_counted + " along " + axes,
                      dimension == 2 ? "write cells: [20, 20]" : "write cells: [20, 20, 20]");
   }
@@ -199,15 +199,16 @@ Spec mesh_spec(MeshOptions& options) {
   };
   const auto input = std::make_shared<Input>();
   Spec spec("mesh", "How the geometry is cut into cells.");
-  spec.choice("kind", input->kind,
-              {{"unstructured", "cells of varying size, made by gmsh"},
-               {"structured",
-                dimension == 2
-                    ? "equal rectangles, cut into triangles by alternating diagonals; fractures and edges of regions "
-                      "must lie on their lines"
-                    : "equal hexahedra, whole or cut by alternating diagonals; fractures and borders of regions must be "
-                      "faces of cells"}},
-              {.doc = "What kind of mesh."});
+  spec.choice(
+      "kind", input->kind,
+      {{"unstructured", "cells of varying size, made by gmsh"},
+       {"structured",
+        dimension == 2
+            ? "equal rectangles, cut into triangles by alternating diagonals; fractures and edges of regions "
+              "must lie on their lines"
+            : "equal hexahedra, whole or cut by alternating diagonals; fractures and borders of regions must be "
+              "faces of cells"}},
+      {.doc = "What kind of mesh."});
   const std::vector<std::pair<std::string, std::string>> shapes =
       dimension == 2
           ? std::vector<std::pair<std::string, std::string>>{{"triangles", "triangles only"},
@@ -219,8 +220,7 @@ Spec mesh_spec(MeshOptions& options) {
                 {"tetrahedra", "structured: six of each hexahedron; unstructured meshes have these alone"},
                 {"wedges", "structured: two of each hexahedron, with triangles at bottom and top"},
                 {"hexahedra", "structured: whole"}};
-  spec.choice("shape", input->shape, shapes,
-              {.doc = "What the cells look like; a mesh file brings its own."});
+  spec.choice("shape", input->shape, shapes, {.doc = "What the cells look like; a mesh file brings its own."});
   spec.quantity("size", options.size,
                 {.unit = "m",
                  .range = positive(),
@@ -255,9 +255,10 @@ Spec mesh_spec(MeshOptions& options) {
                 {.unit = "m",
                  .range = positive(),
                  .doc = "Gaps make edges no shorter than this; by default a 500th of the shortest size asked for."});
-  spec.quantities(
-      "cells", input->cells,
-      {.unit = "", .range = positive(), .doc = "Structured: " + cells_counted + " along " + axes + "; by default as size asks."});
+  spec.quantities("cells", input->cells,
+                  {.unit = "",
+                   .range = positive(),
+                   .doc = "Structured: " + cells_counted + " along " + axes + "; by default as size asks."});
   spec.quantity("distortion", options.distortion,
                 {.unit = "",
                  .range = between(0, 0.4),

@@ -19,9 +19,9 @@ extern const char* const table_columns;  ///< what tables of fractures hold
 struct FracturePlace {
   std::vector<Point> points;
   std::optional<Point> center;
-  std::optional<double> length, angle;         ///< `angle` in a plane
+  std::optional<double> length, angle;        ///< `angle` in a plane
   std::optional<double> strike, dip, height;  ///< in space
-  std::vector<double> radius;                  ///< in space
+  std::vector<double> radius;                 ///< in space
 };
 
 /// Adds the keys of a place.

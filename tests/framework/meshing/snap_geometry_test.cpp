@@ -4,9 +4,9 @@
 #include <set>
 
 #include "framework/mesh/mesh_quality.hpp"
-#include "framework/meshing/plane/arrangement.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
+#include "framework/meshing/plane/arrangement.hpp"
 #include "framework/meshing/validate_geometry.hpp"
 #include "tests/framework/meshing/digitized_network.hpp"
 

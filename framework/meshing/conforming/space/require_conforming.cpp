@@ -69,7 +69,8 @@ std::vector<std::string> require_conforming(const RawMesh& mesh, const FaceTable
   }
   if (count == 0) return {};
   throw InputError(fmt::format(
-      "its cells do not fit together: {} node{} on outer faces of other cells, as at {}; nothing passes from one cell to "
+      "its cells do not fit together: {} node{} on outer faces of other cells, as at {}; nothing passes from one cell "
+      "to "
       "the other there. Join nodes at one place (gmsh: Mesh > Coherence), and make the parts together, so that they "
       "have common faces; where a fracture is meant, give it one group of surfaces",
       count, count == 1 ? " lies" : "s lie", to_text(at)));

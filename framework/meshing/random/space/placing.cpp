@@ -43,8 +43,8 @@ class Obstacles {
       for (const Point& corner : a->corners()) is_near = is_near || b->distance(corner) < gap;
       for (const auto& [from, to] : edges_of(a->corners())) {
         const double at_from = b->height(from), at_to = b->height(to);
-        cross = cross || (at_from * at_to < 0 &&
-                          b->contains(b->in_plane(from + at_from / (at_from - at_to) * (to - from)), 0));
+        cross = cross ||
+                (at_from * at_to < 0 && b->contains(b->in_plane(from + at_from / (at_from - at_to) * (to - from)), 0));
       }
     }
     for (const Line& edge : edges_of(one.corners()))
@@ -52,7 +52,8 @@ class Obstacles {
         const auto [x, y] = nearest_points(edge, across);
         is_near = is_near || (x - y).norm() < gap;
       }
-    const double angle = std::atan2(one.normal().cross(other.normal()).norm(), std::abs(one.normal().dot(other.normal())));
+    const double angle =
+        std::atan2(one.normal().cross(other.normal()).norm(), std::abs(one.normal().dot(other.normal())));
     return !is_near && !(cross && angle < set_.least_angle);
   }
 
@@ -61,8 +62,8 @@ class Obstacles {
   std::vector<FlatShape> shapes_;
 };
 
-/// A random unit vector with the density ~ exp(concentration cos(angle to the mean)) (Fisher, Proc. R. Soc. A 217 (1953)
-/// 295); 0 is uniform.
+/// A random unit vector with the density ~ exp(concentration cos(angle to the mean)) (Fisher, Proc. R. Soc. A 217
+/// (1953) 295); 0 is uniform.
 Point fisher(const Point& mean, double concentration, RandomNumbers& random) {
   const double u = random.uniform(), turn = 2 * std::numbers::pi * random.uniform();
   const double cosine =
@@ -79,7 +80,8 @@ std::vector<Point> points_around_middle(const RandomFractures& set, double lengt
   Point normal = fisher(mean.along_strike().cross(mean.up_dip()), set.concentration, directions);
   if (normal.z() < 0) normal = -normal;
   // The strike has the horizontal part of the normal to its right.
-  const StrikeAndDip plane{std::atan2(-normal.y(), normal.x()), std::atan2(std::hypot(normal.x(), normal.y()), normal.z())};
+  const StrikeAndDip plane{std::atan2(-normal.y(), normal.x()),
+                           std::atan2(std::hypot(normal.x(), normal.y()), normal.z())};
   return rectangle(Point::Zero(), plane, length, length);
 }
 

@@ -30,11 +30,12 @@ void add_place(Spec& spec, const std::shared_ptr<FracturePlace>& place) {
                  .doc = "The direction of the horizontal line in a rectangle, disc or ellipse, clockwise from north "
                         "(y); it dips to the right of it. By default 0."});
   usually(spec, "strike", usual_angle());
-  spec.quantity("dip", place->dip,
-                {.unit = "rad",
-                 .range = between(0, std::numbers::pi),
-                 .doc = "How steeply it dips: 0 is horizontal, 90 degrees upright. By default 90 degrees. The plus side "
-                        "is below it, or to the left of the strike."});
+  spec.quantity(
+      "dip", place->dip,
+      {.unit = "rad",
+       .range = between(0, std::numbers::pi),
+       .doc = "How steeply it dips: 0 is horizontal, 90 degrees upright. By default 90 degrees. The plus side "
+              "is below it, or to the left of the strike."});
   spec.quantity("length", place->length,
                 {.unit = "m", .range = positive(), .doc = "The length of a rectangle along its strike."});
   spec.quantity("height", place->height,
@@ -76,14 +77,14 @@ void take_place(const FracturePlace& place, const Node& whole, FractureGeometry&
 
 namespace {
 
-struct RegionInput {
+struct RegionKeys {
   std::array<std::vector<double>, dimension> box;
   bool has_box = false;
   std::optional<Point> point, normal;
   std::vector<Data> between;
 };
 
-Spec region_box_spec(const std::shared_ptr<RegionInput>& input) {
+Spec region_box_spec(const std::shared_ptr<RegionKeys>& input) {
   Spec spec("region.box", "What lies between two values along one or more axes.");
   for (int axis = 0; axis < dimension; ++axis) {
     const std::string key(1, "xyz"[axis]);
@@ -141,16 +142,18 @@ std::vector<Data> read_surfaces(const Node& node) {
 }  // namespace
 
 Spec region_spec(const std::string& name, const Origin& origin, std::function<void(RegionGeometry)> keep) {
-  const auto input = std::make_shared<RegionInput>();
-  Spec spec("region", "A part of the " + medium_name() + " that may have properties of its own: what its box, its "
-                      "half-space and its layer, as far as they are given, have in common.");
+  const auto input = std::make_shared<RegionKeys>();
+  Spec spec("region", "A part of the " + medium_name() +
+                          " that may have properties of its own: what its box, its "
+                          "half-space and its layer, as far as they are given, have in common.");
   spec.section("box", region_box_spec(input), {.doc = "What lies in a box."}, &input->has_box);
   spec.point("point", input->point, {.unit = "m", .doc = "A point of a plane; the region lies on one side of it."});
   spec.point("normal", input->normal, {.unit = "", .doc = "The direction from the plane into the region."});
-  spec.custom("between", [input](const Node& node) { input->between = read_surfaces(node); },
-              {.unit = "m",
-               .doc = "The heights z of the bottom and the top of a layer: numbers, or expressions of x and y. The mesh "
-                      "conforms to those that are planes; cells belong to the region in which their centre lies."});
+  spec.custom(
+      "between", [input](const Node& node) { input->between = read_surfaces(node); },
+      {.unit = "m",
+       .doc = "The heights z of the bottom and the top of a layer: numbers, or expressions of x and y. The mesh "
+              "conforms to those that are planes; cells belong to the region in which their centre lies."});
   write_instead(spec.name(), "polygon", "write box: …, point: … and normal: …, or between: […] for a region in space");
   spec.check([input, name, origin, keep = std::move(keep)](const Node& whole) {
     RegionGeometry region{name, {}, origin};
