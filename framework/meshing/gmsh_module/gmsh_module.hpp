@@ -52,7 +52,7 @@ class GmshModule {
   /// Frontal-Delaunay triangles (gmsh's algorithm 6); all lines are edges of the mesh. Throws std::runtime_error
   /// "gmsh failed to <what> (<gmsh's words>)".
   virtual PlanarTriangles triangles(const PlanarLines& lines) const = 0;
-  /// Tetrahedra (gmsh's algorithm 10); all surfaces are faces of the mesh, and nodes at the rim of an ellipse lie
+  /// Delaunay tetrahedra (gmsh's algorithm 1); all surfaces are faces of the mesh, and nodes at the rim of an ellipse lie
   /// on it. Throws std::runtime_error as above.
   virtual Tetrahedra tetrahedra(const CutBox& box) const = 0;
 };

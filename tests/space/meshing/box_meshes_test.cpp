@@ -260,7 +260,7 @@ TEST(UnstructuredInSpace, NodesOfRimsLieOnTheirCurve) {
   Geometry geometry = box({0, 0, 0}, {10, 10, 10});
   const StrikeAndDip plane{35 * pi / 180, 50 * pi / 180}, other{200 * pi / 180, 75 * pi / 180};
   geometry.fractures = {disc("disc", ellipse({4, 5, 5}, plane, 2, 2)),
-                        disc("ellipse", ellipse({6, 5, 5}, other, 1, 2.5))};
+                        disc("ellipse", ellipse({5, 5, 5}, other, 1, 2.5))};
   const Mesh mesh = generate_mesh(geometry, {.size = 1.5, .fracture_size = 0.4});
   expect_fills(geometry.box, mesh);
   for (int f = 0; f < 2; ++f) {
