@@ -8,7 +8,7 @@ namespace sprekk {
 
 /// Frontal-Delaunay triangles (gmsh's algorithm 6) with the edge lengths of SizeField; fractures and the edges of
 /// polygons are edges of the mesh. The geometry must be valid (validate_geometry). Throws std::runtime_error if gmsh
-/// fails. In space tetrahedra (gmsh's algorithm 10), between fractures and the planes that bound regions.
+/// fails. In space tetrahedra (gmsh's algorithm 1), between fractures and the planes that bound regions.
 RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options);
 
 }  // namespace sprekk

@@ -77,14 +77,14 @@ void take_place(const FracturePlace& place, const Node& whole, FractureGeometry&
 
 namespace {
 
-struct RegionInput {
+struct RegionKeys {
   std::array<std::vector<double>, dimension> box;
   bool has_box = false;
   std::optional<Point> point, normal;
   std::vector<Data> between;
 };
 
-Spec region_box_spec(const std::shared_ptr<RegionInput>& input) {
+Spec region_box_spec(const std::shared_ptr<RegionKeys>& input) {
   Spec spec("region.box", "What lies between two values along one or more axes.");
   for (int axis = 0; axis < dimension; ++axis) {
     const std::string key(1, "xyz"[axis]);
@@ -142,7 +142,7 @@ std::vector<Data> read_surfaces(const Node& node) {
 }  // namespace
 
 Spec region_spec(const std::string& name, const Origin& origin, std::function<void(RegionGeometry)> keep) {
-  const auto input = std::make_shared<RegionInput>();
+  const auto input = std::make_shared<RegionKeys>();
   Spec spec("region", "A part of the " + medium_name() +
                           " that may have properties of its own: what its box, its "
                           "half-space and its layer, as far as they are given, have in common.");
