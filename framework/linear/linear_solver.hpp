@@ -140,6 +140,9 @@ struct LinearOptions {
   /// Whether the bulk changes after a few systems, as where the mesh changes with the steps. Then a quick factorization
   /// counts for more than quick back-solves.
   bool bulk_changes_often = false;
+  /// Unknowns up to which `auto` takes a direct solver. In a plane memory is the limit. In space factors fill far more:
+  /// one of 50,000 unknowns takes as long as 60 solves by GMRES, and ten times as many are out of reach.
+  int largest_for_direct = 600'000;
 };
 
 /// `auto`: UMFPACK for small systems in one process, MUMPS for larger ones, where the bulk changes often and in several

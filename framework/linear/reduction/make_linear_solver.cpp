@@ -13,8 +13,6 @@
 namespace sprekk {
 namespace {
 
-constexpr int largest_for_direct = 600'000;
-
 /// Chooses a solver for the first system, and again when the number of unknowns crosses a limit. A direct solver is
 /// accurate to rounding error, and in two dimensions faster up to some hundred thousand unknowns; above, its memory is
 /// the limit.
@@ -44,7 +42,7 @@ class AutomaticSolver final : public LinearSolver {
     constexpr int smallest_for_mumps = 10'000;
     const auto unknowns = system.local.cols();
     const bool is_for_mumps = parallel::size() > 1 || options_.bulk_changes_often || unknowns >= smallest_for_mumps;
-    const char* const type = unknowns > largest_for_direct ? "belos" : is_for_mumps ? "mumps" : "umfpack";
+    const char* const type = unknowns > options_.largest_for_direct ? "belos" : is_for_mumps ? "mumps" : "umfpack";
     if (!chosen_ || chosen_->name() != type) {
       options_.type = type;
       chosen_ = make_linear_solver(options_);
@@ -70,7 +68,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options) {
 }
 
 bool is_direct(const LinearOptions& options, int unknowns) {
-  return options.type == "auto" ? unknowns <= largest_for_direct : options.type != "belos";
+  return options.type == "auto" ? unknowns <= options.largest_for_direct : options.type != "belos";
 }
 
 std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options) {

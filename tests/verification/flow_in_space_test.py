@@ -1,0 +1,257 @@
+#!/usr/bin/python3
+"""flow_in_space_test.py SPREKK [MPIEXEC]: flow in rock and fractures in space, on every kind of mesh: linear pressures, which are exact;
+rest under gravity; scenes of a plane that are extruded; a disc whose pressure is given; what enters and leaves; restarts, probes.
+
+Twins: fractures in general position, mirrored, values that are disturbed by 1e-9, and two processes."""
+
+import math
+import unittest
+
+import numpy as np
+
+from scene_runs import SceneRuns, on_two_processes, sprekk
+
+SIDES = ("left", "right", "front", "back", "bottom", "top")
+# Two fractures that cut the box and each other, in general position but for one axis, and one with its rim in the rock.
+CUTS = {"one": [[0.3, 0, 0], [0.5, 1.2, 0], [0.6, 1.2, 0.9], [0.4, 0, 0.9]],
+        "other": [[0, 0.4, 0], [1, 0.7, 0], [1, 0.8, 0.9], [0, 0.5, 0.9]]}
+FLOWS = [f"{flow}.{side}.outflow[m^3/s]" for flow in ("pore", "conduit") for side in SIDES]
+LINEAR = "(1 + x/m - 2*y/m + 0.5*z/m) Pa"
+
+
+def linear(x):
+    return 1 + x[..., 0] - 2 * x[..., 1] + 0.5 * x[..., 2]
+
+
+def scene(mesh, fractures, flow="mfd", rock="mpfa", pressure=LINEAR, more="", rock_more="", fluid="viscosity: 1 Pa*s, fluid_compressibility: 0 1/Pa",
+          walls="1e10 m/(Pa*s)", box="{x: [0 m, 1 m], y: [0 m, 1.2 m], z: [0 m, 0.9 m]}", end="1 s"):
+    """The text of a scene with these fractures, whose pressure is given on all sides (none where `pressure` is None)."""
+    sides = ", ".join(f"{side}: {{pressure: {pressure}}}" for side in SIDES) if pressure else ""
+    corners = "".join(f"    {name}: {{points: {[[f'{float(c)!r} m' for c in point] for point in points]}}}\n".replace("'", "")
+                      for name, points in fractures.items())
+    conduit = f"""
+  conduit:
+    type: fracture_flow/{flow}
+    {fluid.replace(', ', chr(10) + '    ')}
+    initial_aperture: 0.1 mm
+    transmissivity: constant
+    transmissivity_value: 1 m^3
+    normal_permeability: constant
+    normal_permeability_value: {walls}
+    boundary: {{{sides}}}""" if fractures else ""
+    coupling = "couplers:\n  - {type: wall_exchange, between: [pore, conduit]}\n" if fractures else ""
+    return f"""
+name: in_space
+geometry:
+  box: {box}
+{'  fractures:' if fractures else ''}
+{corners}
+mesh: {mesh}
+components:
+  pore:
+    type: matrix_flow/{rock}
+    permeability: {{xx: 1 m^2, yy: 2 m^2, zz: 1.5 m^2, xy: 0.3 m^2, yz: -0.2 m^2, xz: 0.4 m^2}}
+    viscosity: 1 Pa*s
+    storage: 0 1/Pa
+    boundary: {{{sides}}}
+{rock_more}{conduit}
+{coupling}
+schedule:
+  - solve: [{'pore, conduit' if fractures else 'pore'}]
+time: {{end: {end}, step: {end}}}
+{more}
+"""
+
+
+class FlowInSpace(SceneRuns):
+    def run_text(self, text, *settings, **how):
+        return self.run_scene(self.write(text, f"scene_{next(self.numbers)}.yaml"), *settings, **how)
+
+    def assert_linear(self, results, within):
+        rock = results.fields()
+        self.assertEqual(rock.dimension, 3)
+        self.assertLess(np.abs(rock["pore.pressure"] - linear(rock.centres)).max(), within)
+        if "fractures.pvd" in {path.name for path in results.folder.iterdir()}:
+            lines = results.fractures()
+            self.assertLess(np.abs(lines["conduit.pressure"] - linear(lines.centres)).max(), within)
+
+    def test_linear_pressures_are_exact_on_every_mesh(self):
+        along_axes = {"one": [[0.5, 0, 0], [0.5, 1.2, 0], [0.5, 1.2, 0.9], [0.5, 0, 0.9]],
+                      "other": [[0, 0, 0.3], [1, 0, 0.3], [1, 1.2, 0.3], [0, 1.2, 0.3]]}
+        for mesh, fractures in (("{size: 0.25 m}", CUTS), ("{kind: structured, shape: hexahedra, cells: [4, 4, 3]}", along_axes),
+                                ("{kind: structured, shape: wedges, cells: [4, 4, 3]}", along_axes),
+                                ("{kind: structured, shape: tetrahedra, cells: [4, 4, 3]}", along_axes),
+                                ("{size: 0.3 m}", {})):
+            with self.subTest(mesh):
+                # What the walls hold back is some 1e-10 of the pressure.
+                self.assert_linear(self.run_text(scene(mesh, fractures)), 5e-10)
+
+    def test_a_linear_pressure_disturbed_by_round_off_hardly_moves(self):
+        one = self.run_text(scene("{size: 0.3 m}", CUTS))
+        other = self.run_text(scene("{size: 0.3 m}", CUTS), "components.pore.viscosity=1.000000001 Pa*s")
+        self.assertLess(self.largest_difference(one, other, FLOWS), 1e-8)
+
+    @on_two_processes
+    def test_two_processes_have_the_answer_of_one(self):
+        text = scene("{size: 0.25 m, division: scattered}", CUTS)
+        self.assertLess(self.largest_difference(self.run_text(text), self.run_text(text, processes=2), FLOWS), 1e-9)
+
+    def test_two_point_fluxes_are_not_exact_on_triangles(self):
+        results = self.run_text(scene("{size: 0.25 m}", CUTS, flow="tpfa"))
+        lines = results.fractures()
+        self.assertGreater(np.abs(lines["conduit.pressure"] - linear(lines.centres)).max(), 1e-3)
+
+    def test_what_enters_leaves(self):
+        results = self.run_text(scene("{size: 0.25 m}", CUTS))
+        flows = [values[-1] for name, values in results.history.items() if "outflow[" in name and "fluid" not in name]
+        self.assertLess(abs(sum(flows)), 1e-9)
+        # K grad p through the left side: -(1 - 0.6 + 0.2) over its area, without the width of the fractures.
+        self.assertAlmostEqual(results["pore.left.outflow"][-1], (1 * 1 + 0.3 * -2 + 0.4 * 0.5) * 1.2 * 0.9, delta=1e-8)
+
+    def test_fluid_at_rest_stays_at_rest_under_gravity(self):
+        gravity = "gravity: [0, 0, -9.81 m/s^2]\n    fluid_density: 1000 kg/m^3"
+        fluid = "viscosity: 1 Pa*s, fluid_compressibility: 1e-9 1/Pa, " + gravity.replace("\n    ", ", ").replace("[0, 0, ", "[0,0,")
+        weight = "(1e5 + 9810*(0.9 - z/m)) Pa"
+        text = scene("{size: 0.3 m}", {**CUTS, "third": [[0.1, 0.9, 0.1], [0.3, 1.1, 0.2], [0.2, 1.0, 0.7]]}, pressure=None,
+                     rock_more=f"    initial_pressure: {weight}\n    {gravity}\n", fluid=fluid + f", initial_pressure: {weight}", end="1e5 s")
+        rock = self.run_text(text, "components.pore.storage=1e-9 1/Pa").fields()
+        self.assertLess(np.abs(rock["pore.pressure"] - 1e5 - 9810 * (0.9 - rock.centres[:, 2])).max(), 1e-6)
+        self.assertLess(np.abs(rock["pore.flux"]).max() if "pore.flux" in rock.names else 0, 1e-9)
+
+    def test_probes_and_lines_are_at_their_places(self):
+        output = ("output:\n  lines: {across: {of: pore.pressure, from: [0.1 m, 0.1 m, 0.1 m], to: [0.9 m, 1.1 m, 0.8 m], points: 5}}\n"
+                  "  probes:\n    p: {of: pore.pressure, at: [0.31 m, 0.77 m, 0.41 m]}\n"
+                  "    q: {of: conduit.pressure, fracture: one, at: [0.45 m, 0.6 m, 0.45 m]}\n"
+                  "    volume: {of: pore.pressure, take: integral}\n")
+        results = self.run_text(scene("{size: 0.25 m}", CUTS, more=output))
+        self.assertAlmostEqual(results["p"][-1], linear(np.array([0.31, 0.77, 0.41])), delta=1e-8)
+        self.assertAlmostEqual(results["q"][-1], linear(np.array([0.45, 0.6, 0.45])), delta=1e-8)
+        self.assertAlmostEqual(results.history["volume[Pa*m^3]"][-1], linear(np.array([0.5, 0.6, 0.45])) * 1.08, delta=1e-8)
+        line = sprekk.read_table(results.folder / "line_across.csv")
+        places = np.stack([line[f"{axis}[m]"] for axis in "xyz"], axis=1)
+        np.testing.assert_allclose(line["pore.pressure[Pa]"][-5:], linear(places[-5:]), atol=1e-8)
+
+    def test_a_run_goes_on_from_its_checkpoint_to_the_bit(self):
+        text = scene("{size: 0.3 m}", CUTS, pressure=None, rock_more="    initial_pressure: (x/m) Pa\n",
+                     fluid="viscosity: 1 Pa*s, fluid_compressibility: 1e-3 1/Pa")
+        settings = ("components.pore.storage=1 1/Pa", "time.step=0.125 s")
+        whole = self.run_text(text, *settings, "time.end=0.75 s")
+        path = self.write(text, "restarted.yaml")
+        part = self.run_scene(path, *settings, "time.end=0.375 s")
+        self.assert_same_bits(self.run_scene(path, *settings, "time.end=0.75 s", restart=part.folder), whole)
+
+    def test_wells_at_points_share_their_rate_with_the_cells_around(self):
+        text = scene("{size: 0.3 m}", {}, pressure="0 Pa", rock_more="    wells: {feed: {at: [0.4 m, 0.7 m, 0.5 m], rate: 2e-3 m^3/s}}\n")
+        results = self.run_text(text)
+        self.assertAlmostEqual(sum(results[f"pore.{side}.outflow"][-1] for side in SIDES), 2e-3, delta=1e-12)
+
+    def test_extruded_scenes_have_the_answers_of_the_plane(self):
+        """Structured rectangles and triangles of a plane, as hexahedra and wedges: (x, y) becomes (x, z)."""
+        # A conductor and a barrier that cross. Both end on sides: at ends in the rock the plane has a correction that space has not.
+        lines = {"along": ([0, 0.5], [1, 0.5]), "up": ([0.5, 0], [0.5, 1])}
+        for flat, solid in (("triangles", "wedges"), ("quadrilaterals", "hexahedra")):
+            with self.subTest(solid):
+                # wedges are extruded along z: there the plane is that of x and y
+                depth = 2 if solid == "wedges" else 1
+
+                def text(dimension, depth=depth, flat=flat, solid=solid):
+                    def place(point, deep):
+                        numbers = list(point) if dimension == 2 else [point[0], *([point[1], deep] if depth == 2 else [deep, point[1]])]
+                        return "[" + ", ".join(f"{c} m" for c in numbers) + "]"
+
+                    def points(ends):
+                        one, other = ends
+                        corners = [(one, 0), (other, 0)] if dimension == 2 else [(one, 0), (other, 0), (other, 2), (one, 2)]
+                        return "[" + ", ".join(place(*corner) for corner in corners) + "]"
+                    up, axis = ("top", "y") if dimension == 2 else (("back", "y") if depth == 2 else ("top", "z"))
+                    down = {"top": "bottom", "back": "front"}[up]
+                    cells = "[8, 8]" if dimension == 2 else ("[8, 8, 3]" if depth == 2 else "[8, 3, 8]")
+                    box = {2: "{x: [0 m, 1 m], y: [0 m, 1 m]}", 3: "{x: [0 m, 1 m], y: [0 m, 1 m], z: [0 m, 2 m]}" if depth == 2 else
+                           "{x: [0 m, 1 m], y: [0 m, 2 m], z: [0 m, 1 m]}"}[dimension]
+                    return f"""
+name: extruded
+geometry:
+  box: {box}
+  fractures: {{along: {{points: {points(lines['along'])}}}, up: {{points: {points(lines['up'])}}}}}
+mesh: {{kind: structured, shape: {flat if dimension == 2 else solid}, cells: {cells}}}
+components:
+  pore:
+    type: matrix_flow/mpfa
+    permeability: 1e-3 m^2
+    viscosity: 1 Pa*s
+    storage: 0.1 1/Pa
+    boundary: {{left: {{pressure: (1 + {axis}/m) Pa}}, {up}: {{pressure: 0 Pa}}, {down}: {{flux: -1e-3 m/s}}}}
+  conduit:
+    type: fracture_flow/tpfa
+    viscosity: 1 Pa*s
+    fluid_compressibility: 0.1 1/Pa
+    initial_aperture: 1 mm
+    transmissivity: constant
+    transmissivity_value: {{fractures: {{along: 1e-2 m^3, up: 1e-8 m^3}}}}
+    normal_permeability: constant
+    normal_permeability_value: {{fractures: {{along: 1e3 m/(Pa*s), up: 1e-5 m/(Pa*s)}}}}
+couplers:
+  - {{type: wall_exchange, between: [pore, conduit]}}
+schedule:
+  - solve: [pore, conduit]
+time: {{end: 5 s, step: 1 s}}
+output: {{fields: true}}
+"""
+                plane, space = (self.run_text(text(dimension)) for dimension in (2, 3))
+                for kind, name in (("matrix", "pore.pressure"), ("fractures", "conduit.pressure")):
+                    flat_fields, solid_fields = plane.fields(kind=kind), space.fields(kind=kind)
+                    seen = np.delete(solid_fields.centres, depth, axis=1)
+                    apart = np.linalg.norm(seen[:, None] - flat_fields.centres[None], axis=2)
+                    self.assertLess(apart.min(axis=1).max(), 1e-9)
+                    wanted = flat_fields[name][apart.argmin(axis=1)]
+                    scale = np.abs(flat_fields[name]).max()
+                    self.assertLess(np.abs(solid_fields[name] - wanted).max(), 1e-9 * scale, (solid, name))
+
+    def test_a_disc_at_a_pressure_lets_in_as_much_as_a_flat_electrode_passes(self):
+        """8 k/mu a (p - p_far) in an infinite body; a sphere around it holds the pressure that this flow has there."""
+        radius, flows = 0.5, []
+        far = 12.0  # m, half the box: the disc looks like a point there, whose pressure is the total flow over 4 pi k/mu r
+        total = 8 * radius
+        rim = f"({total}/(4*pi*sqrt(x^2 + y^2 + z^2)/m)) Pa"
+        for size in (0.16, 0.08):
+            sides = ", ".join(f"{side}: {{pressure: {rim}}}" for side in SIDES)
+            results = self.run_text(f"""
+name: disc
+geometry:
+  box: {{x: [{-far} m, {far} m], y: [{-far} m, {far} m], z: [{-far} m, {far} m]}}
+  fractures: {{disc: {{center: [0.1 m, -0.2 m, 0.05 m], strike: 30 deg, dip: 40 deg, radius: [{radius} m]}}}}
+mesh: {{size: 3 m, fracture_size: {size} m, tip_size: {size / 4} m, growth: 0.4}}
+components:
+  pore:
+    type: matrix_flow/mpfa
+    permeability: 1 m^2
+    viscosity: 1 Pa*s
+    storage: 0 1/Pa
+    boundary: {{{sides}}}
+  conduit:
+    type: fracture_flow/mfd
+    viscosity: 1 Pa*s
+    fluid_compressibility: 0 1/Pa
+    initial_aperture: 0.1 mm
+    transmissivity: constant
+    transmissivity_value: 1 m^3
+    normal_permeability: constant
+    normal_permeability_value: 1e8 m/(Pa*s)
+    prescribed: {{all: {{fracture: disc, pressure: 1 Pa}}}}
+couplers:
+  - {{type: wall_exchange, between: [pore, conduit]}}
+schedule:
+  - solve: [pore, conduit]
+time: {{end: 1 s, step: 1 s}}
+output: {{fields: false}}
+""")
+            flows.append(results["conduit.all.rate"][-1])
+        errors = [abs(flow / total - 1) for flow in flows]
+        print("disc: flow over 8 k/mu a p:", [f"{flow / total:.4f}" for flow in flows])
+        self.assertLess(errors[-1], 0.02)
+        self.assertLess(errors[-1], errors[0])
+        self.assertTrue(math.isfinite(errors[0]))
+
+
+if __name__ == "__main__":
+    unittest.main()
