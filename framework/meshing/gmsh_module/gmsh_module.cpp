@@ -125,6 +125,86 @@ std::vector<std::vector<int>> add_geometry(const CutBox& box) {
   return tags;
 }
 
+/// A place where edges have to be short.
+struct Narrow {
+  Vector at;
+  double size;
+};
+
+Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+double distance(const Vector& x, const Vector& from, const Vector& to) {
+  const Vector along = difference(to, from), way = difference(x, from);
+  const double square = along[0] * along[0] + along[1] * along[1] + along[2] * along[2];
+  const double dot = along[0] * way[0] + along[1] * way[1] + along[2] * way[2];
+  const double share = square > 0 ? std::clamp(dot / square, 0.0, 1.0) : 0;
+  return length({way[0] - share * along[0], way[1] - share * along[1], way[2] - share * along[2]});
+}
+
+/// A curve of the model as a chain of segments.
+struct Curve {
+  std::vector<int> ends;
+  std::vector<Vector> points;
+  Vector low, high;
+};
+
+std::vector<Curve> all_curves() {
+  constexpr int pieces = 16;  // fine for distances
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, 1);
+  std::vector<Curve> curves;
+  for (const auto& [dim, tag] : entities) {
+    gmsh::vectorpair ends;
+    gmsh::model::getBoundary({{dim, tag}}, ends, false, false);
+    std::vector<double> from, to, at, parameters;
+    gmsh::model::getParametrizationBounds(dim, tag, from, to);
+    for (int k = 0; k <= pieces; ++k) parameters.push_back(from[0] + (to[0] - from[0]) * k / pieces);
+    gmsh::model::getValue(dim, tag, parameters, at);
+    Curve curve{{}, {}, {at[0], at[1], at[2]}, {at[0], at[1], at[2]}};
+    for (const auto& [point, end] : ends) curve.ends.push_back(end);
+    for (std::size_t i = 0; i + 2 < at.size(); i += 3) curve.points.push_back({at[i], at[i + 1], at[i + 2]});
+    for (const Vector& x : curve.points)
+      for (int k = 0; k < 3; ++k) {
+        curve.low[k] = std::min(curve.low[k], x[k]);
+        curve.high[k] = std::max(curve.high[k], x[k]);
+      }
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+/// How near to point `tag` of the model, which is at x, a curve comes: its other end, where the point is an end of it.
+double nearness(const Curve& curve, int tag, const Vector& x, double farthest) {
+  Vector apart{};
+  for (int k = 0; k < 3; ++k) apart[k] = std::max({curve.low[k] - x[k], x[k] - curve.high[k], 0.0});
+  if (length(apart) >= farthest) return farthest;
+  if (std::find(curve.ends.begin(), curve.ends.end(), tag) != curve.ends.end())
+    return curve.ends.size() == 2 ? length(difference(curve.points.front(), curve.points.back())) : farthest;
+  double nearest = farthest;
+  for (std::size_t k = 0; k + 1 < curve.points.size(); ++k)
+    nearest = std::min(nearest, distance(x, curve.points[k], curve.points[k + 1]));
+  return nearest;
+}
+
+/// The points of the model that are nearer to others or to curves than edges are long.
+std::vector<Narrow> narrow_places(const CutBox& box) {
+  const std::vector<Curve> curves = all_curves();
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, 0);
+  std::vector<Narrow> narrow;
+  for (const auto& [dim, tag] : entities) {
+    std::vector<double> at;
+    gmsh::model::getValue(dim, tag, {}, at);
+    const Vector x{at[0], at[1], at[2]};
+    const double wanted = box.size_at(x[0], x[1], x[2]);
+    double nearest = wanted;
+    for (const Curve& curve : curves) nearest = std::min(nearest, nearness(curve, tag, x, nearest));
+    nearest = std::max(nearest, box.least_size);
+    if (nearest < wanted) narrow.push_back({x, nearest});
+  }
+  return narrow;
+}
+
 Tetrahedra fetch_mesh(const std::vector<std::vector<int>>& surfaces) {
   Tetrahedra mesh;
   std::vector<double> coordinates;
@@ -168,7 +248,13 @@ class Module final : public GmshModule {
     const GmshModel model;
     model.run("mesh the geometry", [&] {
       const std::vector<std::vector<int>> surfaces = add_geometry(box);
-      gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z) { return box.size_at(x, y, z); });
+      const std::vector<Narrow> narrow = narrow_places(box);
+      gmsh::model::mesh::setSizeCallback([&](int, int, double x, double y, double z) {
+        double size = box.size_at(x, y, z);
+        for (const Narrow& place : narrow)
+          size = std::min(size, place.size + box.growth * length(difference({x, y, z}, place.at)));
+        return size;
+      });
       // Delaunay's. HXT (10) is ten times as fast, with equal angles, but its answers differ from run to run.
       gmsh::option::setNumber("Mesh.Algorithm3D", 1);
       gmsh::model::mesh::generate(3);

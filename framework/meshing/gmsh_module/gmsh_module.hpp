@@ -36,6 +36,10 @@ struct CutBox {
   std::array<double, 3> low, high;
   std::vector<FlatSurface> surfaces;
   std::function<double(double, double, double)> size_at;  ///< the wanted length of edges, in the unit of the points
+  /// Where corners and edges of surfaces, and the lines and points at which these meet, are nearer to one another than
+  /// edges are long, edges are as short as they are near, but no shorter than `least_size`; from there they grow by
+  /// `growth` times the distance.
+  double growth = 0.5, least_size = 0;
 };
 
 /// Tetrahedra between surfaces, in the unit of the points. All numbers count from 0.

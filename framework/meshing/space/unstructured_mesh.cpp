@@ -18,6 +18,12 @@
 namespace sprekk {
 namespace {
 
+/// A steeper grading gives small angles beside the small edges of a gap.
+constexpr double most_growth_from_gaps = 0.5;
+/// Edges in gaps are no shorter than this part of the shortest edges asked for, by default. Measured with 50 random
+/// squares: smallest angles of 9.4 degrees with 0.2, 0.05 and 0.01, of 1.6 degrees without short edges in gaps.
+constexpr double least_gap_part = 0.05;
+
 /// gmsh meshes a box near the origin of size between 1 and 2, since its tolerances are absolute. The scale is a power
 /// of two, so that it costs no digits.
 struct Frame {
@@ -54,6 +60,9 @@ Tetrahedra divide(const Geometry& geometry, const MeshOptions& options, const Fr
   for (const FractureGeometry& fracture : geometry.fractures) box.surfaces.push_back(flat_surface(fracture, frame));
   for (const std::vector<Point>& border : region_borders(geometry)) box.surfaces.push_back(flat_surface(border, frame));
   box.size_at = [&](double x, double y, double z) { return sizes.at(frame.outward(x, y, z)) / frame.scale; };
+  box.growth = std::min(options.growth, most_growth_from_gaps);
+  box.least_size = options.gap_edges > 0 ? options.gap_size.value_or(least_gap_part * sizes.smallest()) / frame.scale
+                                         : far_size(geometry, options) / frame.scale;
   return module<GmshModule>("gmsh").tetrahedra(box);
 }
 

@@ -78,7 +78,7 @@ TEST(ScenesInSpace, RefuseKeysOfThePlane) {
   EXPECT_THAT(refusal(cube + "fractures: {f: {center: [2, 2, 2], radius: 1 m, length: 1 m, height: 2 m}}"),
               HasSubstr("is given twice"));
   EXPECT_THAT(refusal(cube + "fractures: {f: {center: [2, 2, 2], radius: [1 m, 2 m, 3 m]}}"),
-              HasSubstr("more than two radii"));
+              HasSubstr("'radius' has 3 values"));
 }
 
 TEST(ScenesInSpace, GiveRegionsByBoxesHalfSpacesAndLayers) {

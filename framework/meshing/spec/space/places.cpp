@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/config/data_reader.hpp"
 #include "framework/config/units.hpp"
 #include "framework/config/unknown_key.hpp"
 #include "framework/config/usual_range.hpp"
@@ -18,6 +19,19 @@ const char* const fracture_doc =
 const char* const table_columns =
     "a row for each with the columns x, y, z, strike, dip and length, height or radius, or for each point of a polygon "
     "with name, x, y, z";
+
+namespace {
+
+std::vector<double> read_radius(const Node& node) {
+  std::vector<double> radius;
+  if (!node.is_list()) return {read_number(node, "m", positive(), "radius")};
+  for (const Node& item : node.items) radius.push_back(read_number(item, "m", positive(), "radius"));
+  if (radius.size() == 2) return radius;
+  throw InputError(node.origin, "'radius' has " + std::to_string(radius.size()) + " values",
+                   "a disc has one, an ellipse one along strike and one along dip", "write radius: [20 m, 10 m]");
+}
+
+}  // namespace
 
 void add_place(Spec& spec, const std::shared_ptr<FracturePlace>& place) {
   spec.points("points", place->points,
@@ -40,10 +54,10 @@ void add_place(Spec& spec, const std::shared_ptr<FracturePlace>& place) {
                 {.unit = "m", .range = positive(), .doc = "The length of a rectangle along its strike."});
   spec.quantity("height", place->height,
                 {.unit = "m", .range = positive(), .doc = "The length of a rectangle along its dip."});
-  spec.quantities("radius", place->radius,
-                  {.unit = "m",
-                   .range = positive(),
-                   .doc = "One value: of a disc. Two: half axes of an ellipse, along strike and along dip."});
+  spec.custom("radius", [place](const Node& node) { place->radius = read_radius(node); },
+              {.unit = "m",
+               .doc = "A length: the radius of a disc. Two, as [20 m, 10 m]: half axes of an ellipse, along strike and "
+                      "along dip."});
   write_instead(spec.name(), "angle", "write strike: … and dip: … for the direction of a fracture in space");
 }
 
@@ -65,9 +79,6 @@ void take_place(const FracturePlace& place, const Node& whole, FractureGeometry&
     throw InputError(whole.origin, what + " is not given completely",
                      "it needs points, or center with a radius, or center with length and height",
                      "write points: [[x, y, z], …], or center: [x, y, z], strike: …, dip: …, radius: …");
-  if (place.radius.size() > 2)
-    throw InputError(whole.find("radius")->origin, what + " has more than two radii",
-                     "an ellipse has one along strike and one along dip", "write radius: [20 m, 10 m]");
   const StrikeAndDip plane{place.strike.value_or(0), place.dip.value_or(std::numbers::pi / 2)};
   if (is_round)
     fracture.ellipse = ellipse(*place.center, plane, place.radius.front(), place.radius.back());
