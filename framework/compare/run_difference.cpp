@@ -11,6 +11,7 @@
 #include "framework/output/progress.hpp"
 #include "framework/picture/display_unit.hpp"
 #include "framework/report/fracture_names.hpp"
+#include "framework/results/results_dimension.hpp"
 
 namespace sprekk {
 namespace {
@@ -24,8 +25,10 @@ const Snapshot* written_at(const std::vector<Snapshot>& all, double time) {
   return nullptr;
 }
 
+/// Empty where there is none. Fields in space are not compared.
 Grid grid_at(const std::vector<Snapshot>& all, double time) {
   const Snapshot* const snapshot = written_at(all, time);
+  if (snapshot && dimension_of_results(snapshot->file.parent_path()) == 3) return {};
   return snapshot == nullptr ? Grid{} : read_grid(snapshot->file);
 }
 
@@ -51,6 +54,14 @@ std::vector<std::string> array_names(const Grid& grid) {
   for (const Grid::Values& array : grid.arrays)
     if (array.name.ends_with(']')) names.push_back(array.name);
   return names;
+}
+
+void remark_space(RunDifference& difference) {
+  for (const ComparedRun* run : {difference.run, difference.other})
+    if (dimension_of_results(run->name) == 3) {
+      difference.remarks.push_back("fields in space are not compared, tables are: compare fields by probes and lines");
+      return;
+    }
 }
 
 void remark_endings(RunDifference& difference) {
@@ -154,6 +165,7 @@ RunDifference run_difference(const ComparedRun& run, const ComparedRun& other, c
   difference.run = &run;
   difference.other = &other;
   remark_endings(difference);
+  remark_space(difference);
   compare_histories(difference);
   compare_fields(difference);
   if (difference.compared() == 0) {

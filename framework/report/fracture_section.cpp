@@ -11,6 +11,7 @@
 #include "framework/report/fracture_path.hpp"
 #include "framework/report/html.hpp"
 #include "framework/report/sections.hpp"
+#include "framework/types.hpp"
 
 namespace sprekk {
 namespace {
@@ -139,6 +140,7 @@ bool has_grown(const std::map<int, FractureHistory>& all) {
 }  // namespace
 
 std::string fracture_section(const RunResults& results) {
+  if (dimension == 3) return "";  // there is no arc length
   const std::map<int, FractureHistory> all = fracture_histories(results);
   if (all.empty()) return "";
   const std::vector<std::string> names =

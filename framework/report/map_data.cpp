@@ -12,6 +12,7 @@
 #include "framework/report/base64.hpp"
 #include "framework/report/fracture_names.hpp"
 #include "framework/report/fracture_path.hpp"
+#include "framework/types.hpp"
 
 namespace sprekk {
 namespace {
@@ -33,6 +34,7 @@ void add_fields(const Grid::Values& sample, std::vector<MapField>& fields) {
     fields.push_back({name.quantity + ", length", name.unit, sample.name, MapField::length_of_vector});
     fields.push_back({name.quantity + ", x", name.unit, sample.name, 0});
     fields.push_back({name.quantity + ", y", name.unit, sample.name, 1});
+    if (dimension == 3) fields.push_back({name.quantity + ", z", name.unit, sample.name, 2});
   } else {
     for (int c = 0; c < sample.components; ++c) {
       const auto& names = sample.component_names;
@@ -48,7 +50,7 @@ std::vector<double> values_of(const Grid& grid, const MapField& field) {
   if (all == nullptr) return result;
   for (std::size_t i = 0; i < all->values.size(); i += static_cast<std::size_t>(all->components))
     result.push_back(field.component == MapField::length_of_vector
-                         ? std::hypot(all->values[i], all->values[i + 1])
+                         ? std::hypot(all->values[i], all->values[i + 1], all->components > 2 ? all->values[i + 2] : 0)
                          : all->values[i + static_cast<std::size_t>(field.component)]);
   return result;
 }
@@ -80,6 +82,11 @@ Json mesh_json(const Grid& grid) {
 
 /// Adds every line of the grid as a list x, y, x, y, …
 void add_lines(const Grid& fractures, Json& lines) {
+  for (int i = 0; dimension == 3 && i < fractures.cell_count(); ++i) {
+    const auto &from = fractures.points[fractures.cells[2 * i]], &to = fractures.points[fractures.cells[2 * i + 1]];
+    lines.push_back({from[0], from[1], to[0], to[1]});
+  }
+  if (dimension == 3) return;
   std::vector<int> all(static_cast<std::size_t>(fractures.cell_count()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   std::optional<PathOrigin> origin;
@@ -186,7 +193,8 @@ ColourRange add_field(const MapField& field, const std::vector<const Grid*>& gri
 
 std::string map_json(const RunResults& results, std::size_t most_bytes) {
   const std::vector<MapField> fields = map_fields(results), line_fields = fracture_map_fields(results);
-  Json data = {{"colours", Json::array()},     {"fields", Json::array()}, {"lineFields", Json::array()},
+  Json data = {{"inSpace", dimension == 3},  // points are projected
+               {"colours", Json::array()},     {"fields", Json::array()}, {"lineFields", Json::array()},
                {"names", names_json(results)}, {"meshes", Json::array()}, {"times", Json::array()}};
   for (int i = 0; i < colour_count; ++i) data["colours"].push_back(viridis(i / (colour_count - 1.0)));
   const auto times = chosen(results, fields.size(), most_bytes);

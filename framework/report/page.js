@@ -193,13 +193,8 @@
     canvas.style.maxWidth = canvas.width / ratio + 'px';
   };
 
-  const drawFrame = (context, box, range, field) => {
+  const drawAxes = (context, box) => {
     const { left, top } = margin;
-    context.fillStyle = '#1d2329';
-    context.strokeStyle = '#888';
-    context.lineWidth = 1.5;
-    context.font = 11 * ratio + 'px system-ui, Arial, sans-serif';
-    context.strokeRect(left, top, frame.width, frame.height);
     context.textAlign = 'center';
     context.textBaseline = 'top';
     for (const tick of ticks(box[0], box[2], 8)) {
@@ -221,6 +216,16 @@
     context.textAlign = 'center';
     context.fillText('y [m]', 0, 0);
     context.restore();
+  };
+
+  const drawFrame = (context, box, range, field) => {
+    const { left, top } = margin;
+    context.fillStyle = '#1d2329';
+    context.strokeStyle = '#888';
+    context.lineWidth = 1.5;
+    context.font = 11 * ratio + 'px system-ui, Arial, sans-serif';
+    context.strokeRect(left, top, frame.width, frame.height);
+    if (!data.inSpace) drawAxes(context, box);
     drawBar(context, left + frame.width + 40, colours, range, field.unit);
     if (state.lineField >= 0)
       drawBar(context, left + frame.width + 270, lineColours, lineScale(state.time), data.lineFields[state.lineField].unit);
@@ -342,8 +347,9 @@
     if (Number.isNaN(value)) return;
     const wx = box[0] + x / frame.width * (box[2] - box[0]), wy = box[3] - y / frame.height * (box[3] - box[1]);
     const field = data.fields[state.field];
+    const where = data.inSpace ? '' : `x = ${wx.toPrecision(4)} m, y = ${wy.toPrecision(4)} m: `;
     element('map-value').textContent =
-        `x = ${wx.toPrecision(4)} m, y = ${wy.toPrecision(4)} m: ${field.label} = ${value.toPrecision(4)} ${field.unit}${fractureText(x, y)}`;
+        `${where}${field.label} = ${value.toPrecision(4)} ${field.unit}${fractureText(x, y)}`;
   });
 
   element('map-time').max = data.times.length - 1;

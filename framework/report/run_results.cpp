@@ -4,7 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/config/input_error.hpp"
+#include "framework/config/other_dimension.hpp"
 #include "framework/config/text_file.hpp"
+#include "framework/report/drawn_grid.hpp"
+#include "framework/results/results_dimension.hpp"
+#include "framework/types.hpp"
 
 namespace sprekk {
 namespace fs = std::filesystem;
@@ -21,7 +25,7 @@ std::vector<Snapshot> index(RunResults& results, const char* file) {
 
 Grid grid(RunResults& results, const fs::path& file) {
   try {
-    return read_grid(file);
+    return drawn_grid(file);
   } catch (const std::runtime_error& error) {
     results.problems.emplace_back(error.what());
     return {};
@@ -37,6 +41,7 @@ RunResults read_results(const fs::path& folder) {
   if (!fs::is_regular_file(record))
     throw InputError({folder.string()}, "this is no folder of results", "it has no run.json",
                      "give the folder that 'sprekk run' has named");
+  if (const int wanted = dimension_of_results(folder); wanted != dimension) throw OtherDimension{wanted};
   results.record = read_text_file(record.string(), record.string());
   if (!nlohmann::json::parse(results.record, nullptr, false).is_object())
     throw InputError({record.string()}, "this is not the record of a run", "it is damaged, or another file");

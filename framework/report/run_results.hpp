@@ -28,7 +28,8 @@ struct RunResults {
   static constexpr std::size_t most_times = 12;
 };
 
-/// Reads a folder of results. Throws InputError when it holds no run.json; all other files may be missing.
+/// Reads a folder of results. Throws InputError when it holds no run.json; all other files may be missing. Throws
+/// OtherDimension for results of another dimension than that of this program.
 RunResults read_results(const std::filesystem::path& folder);
 
 }  // namespace sprekk

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "framework/results/results_dimension.hpp"
+#include "framework/types.hpp"
+
 namespace sprekk {
 namespace {
 
@@ -48,6 +51,10 @@ FieldOfRun::FieldOfRun(fs::path folder, const std::string& field, const Origin& 
     throw InputError(where, "the run " + shown + " cannot be used",
                      fs::exists(folder_) ? "it is no folder" : "there is no such folder",
                      "give the folder of results that 'sprekk run' has named");
+  if (dimension_of_results(folder_) == 3 || dimension == 3)
+    throw InputError(where, "the run " + shown + " cannot be used",
+                     "fields of other runs are taken in scenes in a plane, from runs in a plane, so far",
+                     "write its field into a table, or give an expression");
   std::vector<std::string> known;
   for (const bool on_fractures : {false, true}) {
     const fs::path index = folder_ / (on_fractures ? "fractures.pvd" : "matrix.pvd");

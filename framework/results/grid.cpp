@@ -50,9 +50,20 @@ const Grid::Values* Grid::find(const std::string& name) const {
   return nullptr;
 }
 
-Grid read_grid(const std::filesystem::path& vtu) {
+GridData read_whole(const std::filesystem::path& vtu) {
   require_whole(vtu);
-  const GridData read = module<VtkModule>("vtk").read(vtu);
+  return module<VtkModule>("vtk").read(vtu);
+}
+
+void add_arrays(const GridData& read, Grid& grid) {
+  std::vector<int> all_points(read.point_count());
+  std::iota(all_points.begin(), all_points.end(), 0);
+  add_arrays(read.on_cells, Grid::Place::cell, grid.sources, grid);
+  add_arrays(read.on_points, Grid::Place::point, all_points, grid);
+}
+
+Grid read_grid(const std::filesystem::path& vtu) {
+  const GridData read = read_whole(vtu);
   Grid grid;
   for (int i = 0; i < read.point_count(); ++i) grid.points.push_back({read.points[3 * i], read.points[3 * i + 1]});
   for (int i = 0; i < read.cell_count(); ++i) {
@@ -66,10 +77,7 @@ Grid read_grid(const std::filesystem::path& vtu) {
       if (count > 2) grid.cells.push_back(corner(k));
     }
   }
-  std::vector<int> all_points(read.point_count());
-  std::iota(all_points.begin(), all_points.end(), 0);
-  add_arrays(read.on_cells, Grid::Place::cell, grid.sources, grid);
-  add_arrays(read.on_points, Grid::Place::point, all_points, grid);
+  add_arrays(read, grid);
   return grid;
 }
 

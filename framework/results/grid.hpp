@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "framework/output/vtk_module/vtk_module.hpp"
+
 namespace sprekk {
 
 /// Triangles or lines with arrays on them, to be drawn: a quadrilateral becomes two triangles with its values.
@@ -32,8 +34,15 @@ struct Grid {
   const Values* find(const std::string& name) const;
 };
 
-/// Reads a file that write_matrix_vtu or write_fracture_vtu has written. Throws std::runtime_error.
+/// Reads a file that write_matrix_vtu or write_fracture_vtu has written. Throws std::runtime_error. Points lose their
+/// z.
 Grid read_grid(const std::filesystem::path& vtu);
+
+/// What such a file holds. Throws std::runtime_error for one that cannot be read or is not whole.
+GridData read_whole(const std::filesystem::path& vtu);
+
+/// Adds the arrays of a file to a grid whose points, cells and sources are there.
+void add_arrays(const GridData& read, Grid& grid);
 
 /// A written time and its file.
 struct Snapshot {

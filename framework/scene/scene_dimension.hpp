@@ -2,13 +2,9 @@
 #pragma once
 
 #include "framework/config/node.hpp"
+#include "framework/config/other_dimension.hpp"
 
 namespace sprekk {
-
-/// Thrown for a scene of another dimension than that of this program.
-struct OtherDimension {
-  int dimension;
-};
 
 /// 3 for a scene whose box has a z, else 2; wrong input counts as 2.
 int dimension_of(const Node& scene);

@@ -4,7 +4,6 @@ rest under gravity; scenes of a plane that are extruded; a disc whose pressure i
 
 Twins: fractures in general position, mirrored, values that are disturbed by 1e-9, and two processes."""
 
-import math
 import unittest
 
 import numpy as np
@@ -213,14 +212,14 @@ output: {{fields: true}}
         far = 12.0  # m, half the box: the disc looks like a point there, whose pressure is the total flow over 4 pi k/mu r
         total = 8 * radius
         rim = f"({total}/(4*pi*sqrt(x^2 + y^2 + z^2)/m)) Pa"
-        for size in (0.16, 0.08):
+        for size, growth in ((0.16, 0.5), (0.08, 0.3)):
             sides = ", ".join(f"{side}: {{pressure: {rim}}}" for side in SIDES)
             results = self.run_text(f"""
 name: disc
 geometry:
   box: {{x: [{-far} m, {far} m], y: [{-far} m, {far} m], z: [{-far} m, {far} m]}}
-  fractures: {{disc: {{center: [0.1 m, -0.2 m, 0.05 m], strike: 30 deg, dip: 40 deg, radius: [{radius} m]}}}}
-mesh: {{size: 3 m, fracture_size: {size} m, tip_size: {size / 4} m, growth: 0.4}}
+  fractures: {{disc: {{center: [0.1 m, -0.2 m, 0.05 m], strike: 30 deg, dip: 40 deg, radius: {radius} m}}}}
+mesh: {{size: 3 m, fracture_size: {size} m, tip_size: {size / 4} m, growth: {growth}}}
 components:
   pore:
     type: matrix_flow/mpfa
@@ -248,9 +247,8 @@ output: {{fields: false}}
             flows.append(results["conduit.all.rate"][-1])
         errors = [abs(flow / total - 1) for flow in flows]
         print("disc: flow over 8 k/mu a p:", [f"{flow / total:.4f}" for flow in flows])
-        self.assertLess(errors[-1], 0.02)
-        self.assertLess(errors[-1], errors[0])
-        self.assertTrue(math.isfinite(errors[0]))
+        self.assertLess(errors[-1], 0.025)
+        self.assertLess(errors[-1], 0.6 * errors[0])
 
 
 if __name__ == "__main__":

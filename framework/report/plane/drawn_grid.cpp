@@ -1,0 +1,7 @@
+#include "framework/report/drawn_grid.hpp"
+
+namespace sprekk {
+
+Grid drawn_grid(const std::filesystem::path& vtu) { return read_grid(vtu); }
+
+}  // namespace sprekk
