@@ -1,4 +1,4 @@
-#include "framework/meshing/plane/single_cell_corners.hpp"
+#include "framework/meshing/single_cell_corners.hpp"
 
 #include <algorithm>
 #include <numbers>

@@ -4,10 +4,12 @@
 #include <functional>
 #include <vector>
 
-#include "framework/meshing/random/random_fractures.hpp"
+#include "framework/meshing/geometry.hpp"
 #include "framework/meshing/random/random_laws.hpp"
 
 namespace sprekk {
+
+struct RandomFractures;
 
 /// The points of a fracture in a random direction, from its middle, m: in a plane a line; in space a square of this
 /// edge length, two edges of which are horizontal.

@@ -12,7 +12,7 @@
 #include "framework/meshing/regions.hpp"
 #include "framework/meshing/space/outer_sides.hpp"
 #include "framework/meshing/space/region_borders.hpp"
-#include "framework/meshing/space/size_field.hpp"
+#include "framework/meshing/space/sizes_in_space.hpp"
 #include "framework/module/module.hpp"
 
 namespace sprekk {
@@ -53,7 +53,7 @@ FlatSurface flat_surface(const FractureGeometry& fracture, const Frame& frame) {
 }
 
 Tetrahedra divide(const Geometry& geometry, const MeshOptions& options, const Frame& frame) {
-  const SizeField sizes(geometry, options);
+  const SizesInSpace sizes(geometry, options);
   CutBox box;
   box.low = frame.inward(geometry.box.low);
   box.high = frame.inward(geometry.box.high);

@@ -10,7 +10,7 @@
 #include "framework/mesh/medium.hpp"
 #include "framework/meshing/space/flat_shape.hpp"
 #include "framework/meshing/space/region_borders.hpp"
-#include "framework/meshing/space/size_field.hpp"
+#include "framework/meshing/space/sizes_in_space.hpp"
 
 namespace sprekk {
 namespace {
@@ -217,7 +217,7 @@ void validate_region(const Box& box, const RegionGeometry& region) {
 }
 
 double wanted_cells(const Geometry& geometry, const MeshOptions& options) {
-  return SizeField(geometry, options).estimated_cells();
+  return SizesInSpace(geometry, options).estimated_cells();
 }
 
 }  // namespace sprekk

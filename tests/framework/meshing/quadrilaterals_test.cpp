@@ -8,7 +8,7 @@
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/point_location.hpp"
 #include "framework/meshing/generate_mesh.hpp"
-#include "framework/meshing/plane/single_cell_corners.hpp"
+#include "framework/meshing/single_cell_corners.hpp"
 #include "framework/remeshing/overlap.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"
 

@@ -13,11 +13,14 @@
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/space/flat_shape.hpp"
 #include "framework/meshing/space/strike_and_dip.hpp"
+#include "tests/space/meshing/measures.hpp"
 
 namespace sprekk {
 namespace {
 
 using std::numbers::pi;
+using test::area_of;
+using test::volume_of;
 using testing::AllOf;
 using testing::HasSubstr;
 using Shape = MeshOptions::Shape;
@@ -39,13 +42,6 @@ FractureGeometry disc(const std::string& name, const Ellipse& ellipse) {
   FractureGeometry fracture = polygon(name, {});
   fracture.ellipse = ellipse;
   return fracture;
-}
-
-double area_of(const Mesh& mesh, int fracture) {
-  double area = 0;
-  const auto& [name, first, count] = mesh.fractures[fracture];
-  for (int i = first; i < first + count; ++i) area += mesh.fracture_cells[i].measure;
-  return area;
 }
 
 double length_of(const Mesh& mesh, Ridge::Kind kind) {
@@ -314,11 +310,9 @@ TEST(RegionsInSpace, AreWhatTheirPlanesBound) {
   };
   const Mesh mesh = generate_mesh(geometry, {.size = 0.8});
   expect_fills(geometry.box, mesh);
-  std::vector<double> volumes(3, 0);
-  for (int c = 0; c < mesh.cell_count(); ++c) volumes[mesh.cell_region[c]] += mesh.cell_measure[c];
   EXPECT_EQ(mesh.region_names[1], "corner");
-  EXPECT_NEAR(volumes[1], std::pow(3.3, 3) / 6, 1e-8);
-  EXPECT_NEAR(volumes[2], 4, 1e-8);
+  EXPECT_NEAR(volume_of(mesh, 1), std::pow(3.3, 3) / 6, 1e-8);
+  EXPECT_NEAR(volume_of(mesh, 2), 4, 1e-8);
 }
 
 TEST(GeometryInSpace, RefusesWhatIsNoFracture) {

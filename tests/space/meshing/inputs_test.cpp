@@ -17,6 +17,7 @@
 #include "framework/meshing/regions.hpp"
 #include "framework/meshing/space/flat_shape.hpp"
 #include "framework/meshing/spec/geometry_spec.hpp"
+#include "tests/space/meshing/measures.hpp"
 
 namespace sprekk {
 namespace {
@@ -107,9 +108,7 @@ regions:
   Geometry layered = geometry;
   layered.regions = {geometry.regions[2]};
   const Mesh mesh = generate_mesh(layered, {.size = 1});
-  double volume = 0;
-  for (int c = 0; c < mesh.cell_count(); ++c) volume += mesh.cell_region[c] == 1 ? mesh.cell_measure[c] : 0;
-  EXPECT_NEAR(volume, 16 * 1.2, 1e-9);
+  EXPECT_NEAR(test::volume_of(mesh, 1), 16 * 1.2, 1e-9);
 }
 
 TEST(ScenesInSpace, GiveMeshes) {
@@ -190,15 +189,11 @@ fractures:
   const Mesh mesh = generate_mesh(geometry, {.size = 12, .fracture_size = 4});
   EXPECT_EQ(mesh.fractures.size(), 50U);
   for (int f = 0; f < 50; ++f) {
-    double area = 0;
-    const auto& [name, first, count] = mesh.fractures[f];
-    for (int i = first; i < first + count; ++i) area += mesh.fracture_cells[i].measure;
     const double whole = FlatShape(geometry.fractures[f]).area();
-    EXPECT_NEAR(area, whole, 1e-8 * whole) << name;
+    EXPECT_NEAR(test::area_of(mesh, f), whole, 1e-8 * whole) << f;
   }
   EXPECT_GT(mesh.junctions.size(), 0U);
-  std::cout << mesh.cell_count() << " tetrahedra, smallest dihedral angle "
-            << mesh_quality(mesh).smallest_angle * 180 / pi << " degrees\n";
+  EXPECT_GT(mesh_quality(mesh).smallest_angle, 5 * pi / 180);
 }
 
 class MeshFilesInSpace : public Files {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "framework/mesh/plane/planar.hpp"
+#include "framework/meshing/random/random_fractures.hpp"
 
 namespace sprekk {
 namespace {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "framework/meshing/random/random_fractures.hpp"
 #include "framework/meshing/space/flat_shape.hpp"
 #include "framework/meshing/space/region_borders.hpp"
 #include "framework/meshing/space/strike_and_dip.hpp"

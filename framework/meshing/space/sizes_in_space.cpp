@@ -1,11 +1,11 @@
-#include "framework/meshing/space/size_field.hpp"
+#include "framework/meshing/space/sizes_in_space.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace sprekk {
 
-SizeField::SizeField(const Geometry& geometry, const MeshOptions& options)
+SizesInSpace::SizesInSpace(const Geometry& geometry, const MeshOptions& options)
     : box_(geometry.box), far_size_(far_size(geometry, options)), growth_(options.growth) {
   const double tolerance = point_tolerance(geometry.box);
   const auto is_on_side = [&](const Line& edge) {
@@ -25,7 +25,7 @@ SizeField::SizeField(const Geometry& geometry, const MeshOptions& options)
   }
 }
 
-double SizeField::at(const Point& x) const {
+double SizesInSpace::at(const Point& x) const {
   double size = far_size_;
   for (const Source& source : sources_) {
     const double away = (x - x.cwiseMax(source.low).cwiseMin(source.high)).norm();
@@ -37,14 +37,14 @@ double SizeField::at(const Point& x) const {
   return size;
 }
 
-double SizeField::smallest() const {
+double SizesInSpace::smallest() const {
   double smallest = far_size_;
   for (const Source& source : sources_)
     smallest = std::min({smallest, source.size, source.rim.empty() ? source.size : source.rim_size});
   return smallest;
 }
 
-double SizeField::estimated_cells() const {
+double SizesInSpace::estimated_cells() const {
   const double per_volume = 6 * std::sqrt(2.0);
   const auto cubed = [](double size) { return size * size * size; };
   double integral = box_.size().prod() / cubed(far_size_);

@@ -10,10 +10,10 @@ namespace sprekk {
 /// The wanted edge length, m. It is the smallest of: the far size; for each fracture its size plus growth times the
 /// distance from it; for the rim of each fracture, where it lies inside of the box, the tip size plus growth times the
 /// distance from the rim.
-class SizeField {
+class SizesInSpace {
  public:
   /// The geometry is that of a box and valid, except that sizes may still be absurdly small.
-  SizeField(const Geometry& geometry, const MeshOptions& options);
+  SizesInSpace(const Geometry& geometry, const MeshOptions& options);
 
   double at(const Point& x) const;
   double smallest() const;  ///< the smallest edge length anywhere, m
