@@ -95,31 +95,48 @@ struct Given {
   }
 };
 
-/// Pressures of cells, and fluxes through faces.
+/// Pressures of cells and of inner faces (none where these are no unknowns), and fluxes through all faces.
 struct Solved {
-  Vector pressure, fluxes;
+  Vector pressure, face_pressure, fluxes;
 };
 
 /// The steady flow with given conditions: what flows out of each cell is the source in it.
 inline Solved solve(const Mesh& mesh, const FluxOperators& operators, const Given& given,
                     const std::function<double(const Point&)>& source) {
+  const int cells = mesh.cell_count(), faces = static_cast<int>(operators.faces.flux.rows());
   std::vector<Triplet> entries;
   for (int f = 0; f < mesh.face_count(); ++f) {
     const auto [cell, other] = mesh.face_cells[f];
     entries.emplace_back(cell, f, 1.0);
     if (other != none) entries.emplace_back(other, f, -1.0);
   }
-  SparseMatrix divergence(mesh.cell_count(), mesh.face_count());
+  SparseMatrix divergence(cells, mesh.face_count());
   divergence.setFromTriplets(entries.begin(), entries.end());
   const Vector constant = operators.flux_boundary * given.values + operators.flux_change * given.changes;
-  Vector right(mesh.cell_count());
-  for (int c = 0; c < mesh.cell_count(); ++c) right[c] = mesh.cell_measure[c] * source(mesh.cell_center[c]);
-  right -= divergence * constant;
-  const Eigen::SparseMatrix<double> matrix = divergence * operators.flux_cell;
+  Vector right = Vector::Zero(cells + faces);
+  for (int c = 0; c < cells; ++c) right[c] = mesh.cell_measure[c] * source(mesh.cell_center[c]);
+  right.head(cells) -= divergence * constant;
+  entries.clear();
+  const auto add = [&](const SparseMatrix& block, int row, int column) {
+    for (int i = 0; i < block.outerSize(); ++i)
+      for (SparseMatrix::InnerIterator entry(block, i); entry; ++entry)
+        entries.emplace_back(row + static_cast<int>(entry.row()), column + static_cast<int>(entry.col()),
+                             entry.value());
+  };
+  add(divergence * operators.flux_cell, 0, 0);
+  if (faces > 0) {
+    right.tail(faces) = -(operators.faces.continuity_boundary * given.values);
+    add(divergence * operators.faces.flux, 0, cells);
+    add(operators.faces.continuity_cell, cells, 0);
+    add(operators.faces.continuity_face, cells, cells);
+  }
+  Eigen::SparseMatrix<double> matrix(cells + faces, cells + faces);
+  matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(matrix);
-  Solved solved;
-  solved.pressure = solver.solve(right);
+  const Vector unknowns = solver.solve(right);
+  Solved solved{unknowns.head(cells), unknowns.tail(faces), {}};
   solved.fluxes = operators.flux_cell * solved.pressure + constant;
+  if (faces > 0) solved.fluxes += operators.faces.flux * solved.face_pressure;
   return solved;
 }
 

@@ -53,7 +53,10 @@ class Rt0 : public MatrixFlow {
   void note_input(Notes& notes) const override {
     MatrixFlow::note_input(notes);
     if (!is_permeable()) return;
-    if (!is_lumped_) return note_uncorrected_tips(notes, name(), mesh(), mobility());
+    if (!is_lumped_) {
+      if constexpr (dimension == 2) note_uncorrected_tips(notes, name(), mesh(), mobility());
+      return;
+    }
     int not_lumped = 0;
     for (int cell = 0; cell < mesh().cell_count(); ++cell)
       not_lumped += is_in_cell(cell) && lumped_flux_mass(mesh(), cell, mobility()[cell]).share < 1;

@@ -7,10 +7,19 @@
 #include "components/matrix_flow/check_conditions.hpp"
 #include "components/matrix_flow/rt0/flux_mass.hpp"
 #include "components/matrix_flow/rt0/tip_terms.hpp"
+#include "framework/discretization/changes_along_face.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
+
+FluxMass inverse_of(const FluxMass& mass) {
+  // In a plane masses are symmetric, in space those of cells with bent faces are not.
+  if constexpr (dimension == 2)
+    return Eigen::LLT<FluxMass>(mass).solve(FluxMass::Identity(mass.rows(), mass.cols()));
+  else
+    return mass.inverse();
+}
 
 /// The entries of all matrices, cell by cell.
 class Entries {
@@ -22,13 +31,12 @@ class Entries {
   /// `tip`: null away from tips; it adds `missing` · amounts to p − h.
   void add(int cell, const FluxMass& mass, const TipTerm* tip) {
     std::vector<int> free, given;
-    const Ring& faces = mesh_.cell_faces[cell];
+    const CellFaces& faces = mesh_.cell_faces[cell];
     for (int k = 0; k < faces.size(); ++k) (conditions_[faces[k]] == FlowCondition::flux ? given : free).push_back(k);
     const FluxMass coupling = mass(free, given);
     FluxMass conductance(free.size(), free.size());
     if (!free.empty()) {
-      conductance =
-          Eigen::LLT<FluxMass>(FluxMass(mass(free, free))).solve(FluxMass::Identity(free.size(), free.size()));
+      conductance = inverse_of(mass(free, free));
     }
     const FluxMass of_given = conductance * coupling;  // less of it flows through the free faces
     TipTerm of_tip = tip ? *tip : TipTerm{};
@@ -72,11 +80,11 @@ class Entries {
     int row;
     double factor;
   };
-  using Coefficients = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 4>;
+  using Coefficients = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_faces>;
 
   /// conductance · (p − h) − of_given · q.
-  void add_flux(const Row& to, int cell, const Ring& faces, const std::vector<int>& free, const std::vector<int>& given,
-                const Coefficients& conductance, const Coefficients& of_given) const {
+  void add_flux(const Row& to, int cell, const CellFaces& faces, const std::vector<int>& free,
+                const std::vector<int>& given, const Coefficients& conductance, const Coefficients& of_given) const {
     to.cells.emplace_back(to.row, cell, to.factor * conductance.sum());
     for (std::size_t j = 0; j < free.size(); ++j) {
       const int face = faces[free[j]];
@@ -95,7 +103,7 @@ class Entries {
   /// The flux through a face where it is prescribed, and the pressure there: p − h = M_qf F_free + M_qq q.
   void add_given(int cell, const FluxMass& mass, int k, const std::vector<int>& free, const std::vector<int>& given,
                  const FluxMass& conductance, const FluxMass& of_given) {
-    const Ring& faces = mesh_.cell_faces[cell];
+    const CellFaces& faces = mesh_.cell_faces[cell];
     const int face = faces[k];
     const double scale = 1 / mass(k, k);
     flux_boundary.emplace_back(face, face, 1);
@@ -140,10 +148,10 @@ FluxOperators operators_of(const Mesh& mesh, const Entries& entries) {
   const int cells = mesh.cell_count(), faces = mesh.face_count();
   return {matrix(entries.flux_cell, cells),
           matrix(entries.flux_boundary, faces),
-          matrix({}, faces),
+          matrix({}, directions_of_faces * faces),
           matrix(entries.trace_cell, cells),
           matrix(entries.trace_boundary, faces),
-          matrix({}, faces),
+          matrix({}, directions_of_faces * faces),
           matrix({}, faces),
           {matrix(entries.flux_face, faces), matrix(entries.trace_face, faces), matrix(entries.continuity_cell, cells),
            matrix(entries.continuity_face, faces), matrix(entries.continuity_boundary, faces)}};

@@ -1,4 +1,4 @@
-// Mixed-hybrid finite elements of lowest order on triangles and convex quadrilaterals.
+// Mixed-hybrid finite elements of lowest order.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace sprekk::matrix_flow {
 /// other: so what leaves one cell enters the other to the bit, also before the equations of the faces hold. The
 /// pressures of walls and of boundary faces with a flux are eliminated within their cell.
 /// Arguments as for discretize_mpfa; all rows are complete, whatever `nodes` says.
-/// Near the tip of a fracture the equations of a cell contain the singular flow around it (TipTerms).
+/// In a plane, near the tip of a fracture the equations of a cell contain the singular flow around it (TipTerms).
 /// Exact for linear pressures on any mesh; the mobility may be discontinuous and anisotropic. Throws std::runtime_error
 /// if a mobility is not positive definite.
 FluxOperators discretize_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,

@@ -14,13 +14,14 @@ namespace sprekk::matrix_flow {
 /// modes from the pressures around the tip (TipFlow::share).
 struct TipTerm {
   const TipFlow* flow = nullptr;
-  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 4, 2> missing;  ///< Pa for amounts of 1 Pa/m^0.5, one row a face
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most_faces, 2> missing;  ///< Pa for amounts of 1 Pa/m^0.5, one row a face
 };
 
 /// The terms of all cells near tips. With piecewise linear pressures alone a fracture exchanges fluid with the rock
 /// like one that is longer or shorter by a part of a cell. So each cell whose corners all lie near one tip gets what
 /// its equation misses for the two modes of the flow, with pressures at the centres of cells and faces and fluxes in
-/// closed form. These terms vanish for linear pressures. As in MPFA, only as much of them is taken as gains no energy.
+/// closed form. In space there are none. These terms vanish for linear pressures. As in MPFA, only as much of them is
+/// taken as gains no energy.
 class TipTerms {
  public:
   /// `masses`: flux_mass of every cell.
