@@ -10,7 +10,7 @@ set(compiled_alone "^framework/(acceleration|frame_output)$")
 # folders `plane` and `space` are for one of them. What is for a plane alone so far is listed here, and nowhere else.
 set(without_dimension "^framework/(module|parallel|picture|dense|linear)$")
 set(in_a_plane_alone "^(framework/(remeshing|triangulation)|components/(contact|fine_fracture|fracture_heat|matrix_heat|poromechanics)|\
-components/(matrix_flow/(ntpfa|rt0)|wells)|couplers/(aperture|biot|buoyancy|heat_advection|heat_exchange|thermal_stress|thermal_viscosity|\
+components/(matrix_flow/ntpfa|wells)|couplers/(aperture|biot|buoyancy|heat_advection|heat_exchange|thermal_stress|thermal_viscosity|\
 two_level|wall_traction|well_exchange))(/|[.]cpp$|$)")
 
 # sprekk_sources(result folder dimension): the sources below `folder`, without those of modules and of the other dimension.
