@@ -55,6 +55,7 @@ MeshNames mesh_names(const Geometry& geometry) {
   }
   names.regions = region_names(geometry);
   names.sides.assign(box_sides.begin(), box_sides.end());
+  for (const SidePart& part : geometry.side_parts) names.sides.push_back(part.name);
   for (const FractureGeometry& fracture : geometry.fractures) names.fractures.push_back(fracture.name);
   return names;
 }

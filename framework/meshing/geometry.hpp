@@ -62,6 +62,14 @@ inline constexpr auto box_sides = [] {
     return std::array<const char*, 6>{"left", "right", "front", "back", "bottom", "top"};
 }();
 
+/// A rectangle on a side of a box in space, with a name and conditions of its own.
+struct SidePart {
+  std::string name;
+  int side = 0;     ///< index into box_sides
+  Point low, high;  ///< m; along the axis of the side not used
+  Origin origin;
+};
+
 /// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is what no region
 /// covers; its name is medium_name(). Where regions overlap, the later one counts.
 struct Geometry {
@@ -70,6 +78,7 @@ struct Geometry {
   Origin file_origin;
   std::vector<FractureGeometry> fractures;
   std::vector<RegionGeometry> regions;
+  std::vector<SidePart> side_parts;  ///< in space; their sides are those of what is left. They do not overlap
   /// Lines and points of a box that are nearer to one another are joined, m; default snap_length().
   std::optional<double> snap = std::nullopt;
   Origin snap_origin = {};

@@ -10,7 +10,6 @@
 #include "framework/dense/least_squares.hpp"
 #include "framework/dense/lu.hpp"
 #include "framework/dense/symmetric_eigen.hpp"
-#include "framework/discretization/principal_axes.hpp"
 
 namespace sprekk::test {
 namespace {
@@ -123,17 +122,6 @@ TEST(Dense, GeneralizedEigenvaluesOfAProduct) {
   const Eigen::VectorXd found =
       generalized_eigenvalues(left * exact.asDiagonal() * left.transpose(), left * left.transpose());
   EXPECT_LT((found - exact).norm(), 10 * round_off * exact.norm());
-}
-
-TEST(Dense, PrincipalAxesOfATurnedTensor) {
-  const double angle = 0.7;
-  Tensor turn;
-  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  const Tensor tensor = turn * Point(-3, 2).asDiagonal() * turn.transpose();
-  const PrincipalAxes found = principal_axes(tensor);
-  EXPECT_NEAR(found.values[0], -3, round_off);
-  EXPECT_NEAR(found.values[1], 2, round_off);
-  for (int k = 0; k < 2; ++k) EXPECT_NEAR(std::abs(found.axes.col(k).dot(turn.col(k))), 1, round_off);
 }
 
 }  // namespace

@@ -107,6 +107,29 @@ class FlowInSpace(SceneRuns):
         # K grad p through the left side: -(1 - 0.6 + 0.2) over its area, without the width of the fractures.
         self.assertAlmostEqual(results["pore.left.outflow"][-1], (1 * 1 + 0.3 * -2 + 0.4 * 0.5) * 1.2 * 0.9, delta=1e-8)
 
+    def test_parts_of_sides_have_conditions_of_their_own(self):
+        """A linear pressure on a part of the left side, what leaves there, and no flow through the other part: as the whole side."""
+        parts = "sides: {{low: {{on: left, z: [0 m, 0.3 m]}}, patch: {{on: top, x: [0.25 m, 0.75 m], y: [0.3 m, 0.6 m]}}}}"
+        for mesh in ("{size: 0.25 m}", "{kind: structured, shape: hexahedra, cells: [4, 4, 3]}"):
+            with self.subTest(mesh):
+                whole = scene(mesh, {})
+                divided = whole.replace("mesh:", "  " + parts.format() + "\nmesh:").replace("boundary: {", f"boundary: {{low: {{pressure: {LINEAR}}}, patch: {{pressure: {LINEAR}}}, ")
+                results = self.run_text(divided)
+                self.assert_linear(results, 1e-10)
+                self.assertAlmostEqual(results["pore.low.outflow"][-1], (1 * 1 + 0.3 * -2 + 0.4 * 0.5) * 1.2 * 0.3, delta=1e-9)
+                self.assertAlmostEqual(results["pore.patch.outflow"][-1], -(0.4 * 1 - 0.2 * -2 + 1.5 * 0.5) * 0.5 * 0.3, delta=1e-9)
+
+    def test_parts_of_sides_that_cannot_be_are_refused(self):
+        text = scene("{kind: structured, shape: hexahedra, cells: [4, 4, 3]}", {})
+        for parts, words in (("low: {on: left, z: [0 m, 0.4 m]}", "does not follow 'low'"), ("left: {on: left, z: [0 m, 0.3 m]}", "name of a whole side"),
+                             ("low: {on: left, z: [0 m, 2 m]}", "leaves its side along z"), ("low: {on: left, x: [0 m, 1 m]}", "has one x"),
+                             ("low: {on: left, z: [0 m, 0.6 m]}, high: {on: left, z: [0.3 m, 0.9 m]}", "overlaps 'low'"),
+                             ("low: {on: left, z: [0.6 m, 0.3 m]}", "does not begin and end along z")):
+            with self.subTest(parts):
+                called = self.call("check", self.write(text.replace("mesh:", f"  sides: {{{parts}}}\nmesh:"), f"parts_{next(self.numbers)}.yaml"))
+                self.assertEqual(called.returncode, 2, called.stderr)
+                self.assertIn(words, called.stderr)
+
     def test_fluid_at_rest_stays_at_rest_under_gravity(self):
         gravity = "gravity: [0, 0, -9.81 m/s^2]\n    fluid_density: 1000 kg/m^3"
         fluid = "viscosity: 1 Pa*s, fluid_compressibility: 1e-9 1/Pa, " + gravity.replace("\n    ", ", ").replace("[0, 0, ", "[0,0,")

@@ -181,7 +181,7 @@ RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options) {
     RawMesh mesh = mesh_of(grid);
     const std::optional<Astray> found = add_fractures(grid, geometry, mesh);
     if (!found) {
-      take_outer_sides(geometry.box, mesh);
+      take_outer_sides(geometry, mesh);
       assign_regions(geometry, mesh);
       return mesh;
     }

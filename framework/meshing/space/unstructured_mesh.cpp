@@ -59,6 +59,8 @@ Tetrahedra divide(const Geometry& geometry, const MeshOptions& options, const Fr
   box.high = frame.inward(geometry.box.high);
   for (const FractureGeometry& fracture : geometry.fractures) box.surfaces.push_back(flat_surface(fracture, frame));
   for (const std::vector<Point>& border : region_borders(geometry)) box.surfaces.push_back(flat_surface(border, frame));
+  for (const SidePart& part : geometry.side_parts)
+    box.surfaces.push_back(flat_surface(corners_of(part, geometry.box), frame));
   box.size_at = [&](double x, double y, double z) { return sizes.at(frame.outward(x, y, z)) / frame.scale; };
   box.growth = std::min(options.growth, most_growth_from_gaps);
   box.least_size = options.gap_edges > 0 ? options.gap_size.value_or(least_gap_part * sizes.smallest()) / frame.scale
@@ -106,7 +108,7 @@ RawMesh unstructured_mesh(const Geometry& geometry, const MeshOptions& options) 
                        "gmsh did not divide the box along it", "move it, or make it larger");
   restore_corners(geometry, made, mesh);
   mesh.cells = oriented_cells(mesh);
-  take_outer_sides(geometry.box, mesh);
+  take_outer_sides(geometry, mesh);
   for (std::size_t f = 0; f < geometry.fractures.size(); ++f)
     mesh.fractures.push_back(
         {geometry.fractures[f].name, faces_along(geometry.fractures[f], made.triangles[f], mesh.nodes)});

@@ -10,6 +10,7 @@
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/random/random_fractures_spec.hpp"
 #include "framework/meshing/spec/places.hpp"
+#include "framework/meshing/spec/side_parts_spec.hpp"
 
 namespace sprekk {
 namespace {
@@ -141,6 +142,7 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                       {.doc = (dimension == 2 ? "Polygons" : "Bodies") +
                               std::string(" that the mesh conforms to, by name; the rest is called ") + medium_name() +
                               ", and later ones cover earlier ones."});
+  if constexpr (dimension == 3) declare_side_parts(spec, geometry);
   spec.quantity("snap", geometry.snap,
                 {.unit = "m",
                  .range = non_negative(),
@@ -155,6 +157,7 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                        "it needs exactly one of them", "write box: {x: [0 m, 1 m], y: [0 m, 1 m]}");
     }
     draw_sets(*sets, geometry);
+    if constexpr (dimension == 3) complete_side_parts(geometry);
     geometry.snap_origin = origin_of(whole, "snap");
     if (!has_file) return;
     if (geometry.snap)

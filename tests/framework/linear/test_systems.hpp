@@ -20,6 +20,13 @@ inline LinearSystem make_system(int unknowns, const std::vector<Triplet>& entrie
   return system;
 }
 
+/// Places as a block of unknowns has them: a column each.
+inline Eigen::MatrixXd columns_of(const std::vector<Point>& places) {
+  Eigen::MatrixXd columns(2, places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = places[i];
+  return columns;
+}
+
 inline Vector random_vector(int n, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -238,11 +245,12 @@ struct FracturedBiot {
   }
 
   std::vector<UnknownBlock> blocks() const {
-    std::vector<Point> rock, fracture;
+    std::vector<Point> in_rock, on_fracture;
     for (int half = 0; half < 2; ++half)
       for (int j = 0; j <= n / 2; ++j)
-        for (int i = 0; i < columns(); ++i) rock.emplace_back(double(i) / n, 0.5 * half + double(j) / n);
-    for (int i = 0; i < columns(); ++i) fracture.emplace_back(double(i) / n, 0.5);
+        for (int i = 0; i < columns(); ++i) in_rock.emplace_back(double(i) / n, 0.5 * half + double(j) / n);
+    for (int i = 0; i < columns(); ++i) on_fracture.emplace_back(double(i) / n, 0.5);
+    const Eigen::MatrixXd rock = columns_of(in_rock), fracture = columns_of(on_fracture);
     const double lambda = young * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
     const double shear = young / (2 * (1 + poisson_ratio));
     const Vector fixed_stress = Vector::Constant(nodes(), biot * biot / (lambda + shear) / (n * n));
