@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "framework/command_line/hand_over.hpp"
 #include "framework/config/describe/parameter_text.hpp"
 #include "framework/config/inner_path.hpp"
 #include "framework/config/node_paths.hpp"
@@ -125,7 +126,10 @@ void print_explanations(const std::vector<std::string>& names, std::ostream& out
   for (std::size_t i = 0; i < texts.size(); ++i) out << (i == 0 ? "" : "\n") << texts[i];
 }
 
-void print_schema(std::ostream& out) {
+namespace {
+
+/// The schema of the scenes of this program's dimension.
+nlohmann::json own_schema() {
   using nlohmann::json;
   json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "A scene of Sprekk"},
@@ -164,6 +168,28 @@ void print_schema(std::ostream& out) {
   schema["$defs"]["step"] = {{"oneOf", steps}};
   schema["$defs"]["schedule"] = schedule_of({{"$ref", "#/$defs/step"}});
   properties["schedule"] = {{"$ref", "#/$defs/schedule"}, {"description", "How a time step is solved."}};
+  return schema;
+}
+
+/// One schema for scenes in a plane and in space, which have a box with a z. Steps of schedules are the same.
+nlohmann::json schema_of_both(nlohmann::json plane, nlohmann::json space) {
+  nlohmann::json whole = {{"$schema", plane["$schema"]}, {"title", plane["title"]}, {"type", "object"}};
+  whole["$defs"] = plane["$defs"];
+  for (nlohmann::json* one : {&plane, &space})
+    for (const char* key : {"$schema", "$defs", "title"}) one->erase(key);
+  const nlohmann::json box = {{"required", {"box"}}, {"properties", {{"box", {{"required", {"z"}}}}}}};
+  whole["if"] = {{"required", {"geometry"}}, {"properties", {{"geometry", box}}}};
+  whole["then"] = space;
+  whole["else"] = plane;
+  return whole;
+}
+
+}  // namespace
+
+void print_schema(std::ostream& out) {
+  const nlohmann::json own = own_schema();
+  const nlohmann::json schema =
+      dimension == 2 ? schema_of_both(own, nlohmann::json::parse(said_by_program(3, "schema"))) : own;
   out << schema.dump(2) << "\n";
 }
 

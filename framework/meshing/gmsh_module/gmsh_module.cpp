@@ -188,6 +188,7 @@ double nearness(const Curve& curve, int tag, const Vector& x, double farthest) {
 
 /// The points of the model that are nearer to others or to curves than edges are long.
 std::vector<Narrow> narrow_places(const CutBox& box) {
+  if (box.gap_edges == 0) return {};
   const std::vector<Curve> curves = all_curves();
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, 0);
@@ -197,10 +198,10 @@ std::vector<Narrow> narrow_places(const CutBox& box) {
     gmsh::model::getValue(dim, tag, {}, at);
     const Vector x{at[0], at[1], at[2]};
     const double wanted = box.size_at(x[0], x[1], x[2]);
-    double nearest = wanted;
+    double nearest = box.gap_edges * wanted;
     for (const Curve& curve : curves) nearest = std::min(nearest, nearness(curve, tag, x, nearest));
-    nearest = std::max(nearest, box.least_size);
-    if (nearest < wanted) narrow.push_back({x, nearest});
+    const double size = std::max(nearest / box.gap_edges, box.least_size);
+    if (size < wanted) narrow.push_back({x, size});
   }
   return narrow;
 }

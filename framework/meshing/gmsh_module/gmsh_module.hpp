@@ -36,10 +36,11 @@ struct CutBox {
   std::array<double, 3> low, high;
   std::vector<FlatSurface> surfaces;
   std::function<double(double, double, double)> size_at;  ///< the wanted length of edges, in the unit of the points
-  /// Where corners and edges of surfaces, and the lines and points at which these meet, are nearer to one another than
-  /// edges are long, edges are as short as they are near, but no shorter than `least_size`; from there they grow by
-  /// `growth` times the distance.
-  double growth = 0.5, least_size = 0;
+  /// Where corners of surfaces, and points at which surfaces cross, are near to others or to edges, edges are as short
+  /// as this number of them asks for between the two, but no shorter than `least_size`; from there they grow by
+  /// `growth` times the distance. With 0 they are not.
+  double gap_edges = 0;
+  double least_size = 0, growth = 0.5;
 };
 
 /// Tetrahedra between surfaces, in the unit of the points. All numbers count from 0.

@@ -63,8 +63,8 @@ Tetrahedra divide(const Geometry& geometry, const MeshOptions& options, const Fr
     box.surfaces.push_back(flat_surface(corners_of(part, geometry.box), frame));
   box.size_at = [&](double x, double y, double z) { return sizes.at(frame.outward(x, y, z)) / frame.scale; };
   box.growth = std::min(options.growth, most_growth_from_gaps);
-  box.least_size = options.gap_edges > 0 ? options.gap_size.value_or(least_gap_part * sizes.smallest()) / frame.scale
-                                         : far_size(geometry, options) / frame.scale;
+  box.gap_edges = options.gap_edges;
+  box.least_size = options.gap_size.value_or(least_gap_part * sizes.smallest()) / frame.scale;
   return module<GmshModule>("gmsh").tetrahedra(box);
 }
 
@@ -82,8 +82,8 @@ std::vector<FaceNodes> faces_along(const FractureGeometry& fracture, const std::
 
 /// Nodes at corners of polygons get the exact positions of these again, without the rounding of frame and plane.
 void restore_corners(const Geometry& geometry, const Tetrahedra& made, RawMesh& mesh) {
-  // gmsh makes points one that are nearer than 1e-7 in its frame, which is at most as large as the box.
-  const double near = 1e-7 * geometry.box.size().norm();
+  constexpr double one_point = 1e-7;  // OpenCASCADE joins what is nearer, in a frame that is no larger than the box
+  const double near = one_point * geometry.box.size().norm();
   for (std::size_t f = 0; f < geometry.fractures.size(); ++f)
     for (const Point& corner : geometry.fractures[f].points) {
       int nearest = made.triangles[f][0][0];

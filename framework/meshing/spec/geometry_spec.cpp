@@ -143,12 +143,16 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                               std::string(" that the mesh conforms to, by name; the rest is called ") + medium_name() +
                               ", and later ones cover earlier ones."});
   if constexpr (dimension == 3) declare_side_parts(spec, geometry);
-  spec.quantity("snap", geometry.snap,
-                {.unit = "m",
-                 .range = non_negative(),
-                 .doc = "Ends, points and crossings of fractures and regions that are nearer to one another, to a line "
-                        "or to a side are joined, and parts that lie on a fracture already are left out; by default a "
-                        "hundredth of the shortest cell that the mesh is asked for, and 0 joins nothing."});
+  spec.quantity(
+      "snap", geometry.snap,
+      {.unit = "m",
+       .range = non_negative(),
+       .doc = dimension == 2 ? "Ends, points and crossings of fractures and regions that are nearer to one another, to "
+                               "a line or to a side are joined, and parts that lie on a fracture already are left out; "
+                               "by default a hundredth of the shortest cell that the mesh is asked for, and 0 joins "
+                               "nothing."
+                             : "Fractures that are nearer to one another or to a side, but do not touch, are refused; "
+                               "by default a millionth of the diagonal of the box."});
   spec.check([&geometry, folder, sets](const Node& whole) {
     const bool has_box = whole.find("box"), has_file = geometry.is_imported();
     if (has_box == has_file) {
@@ -244,29 +248,35 @@ Spec mesh_spec(MeshOptions& options) {
       "gap_edges", options.gap_edges,
       {.unit = "",
        .range = between(0, 10),
-       .doc = "Unstructured: how many edges a gap between a fracture and a side, another fracture, another part "
-              "of itself or an edge of a region has across, where that makes shorter ones; 0 leaves gaps, and short "
-              "pieces "
-              "of fractures, alone."});
-  spec.quantity(
-      "gap_length", options.gap_length,
-      {.unit = "",
-       .range = non_negative(),
-       .doc = "Gaps between walls side by side that are longer than so many widths are left alone, but for their "
-              "ends: they would take many cells."});
+       .doc = dimension == 2 ? "Unstructured: how many edges a gap between a fracture and a side, another fracture, "
+                               "another part of itself or an edge of a region has across, where that makes shorter "
+                               "ones; 0 leaves gaps, and short pieces of fractures, alone."
+                             : "Unstructured: how many edges there are between a corner of a fracture, or a point at "
+                               "which fractures cross, and the nearest edge or point of another one, where that makes "
+                               "shorter ones; 0 leaves them alone."});
+  if (dimension == 2)
+    spec.quantity(
+        "gap_length", options.gap_length,
+        {.unit = "",
+         .range = non_negative(),
+         .doc = "Gaps between walls side by side that are longer than so many widths are left alone, but for their "
+                "ends: they would take many cells."});
   spec.quantity("gap_size", options.gap_size,
                 {.unit = "m",
                  .range = positive(),
-                 .doc = "Gaps make edges no shorter than this; by default a 500th of the shortest size asked for."});
+                 .doc = "Gaps make edges no shorter than this; by default a " +
+                        std::string(dimension == 2 ? "500th" : "20th") + " of the shortest size asked for."});
   spec.quantities("cells", input->cells,
                   {.unit = "",
                    .range = positive(),
                    .doc = "Structured: " + cells_counted + " along " + axes + "; by default as size asks."});
-  spec.quantity("distortion", options.distortion,
-                {.unit = "",
-                 .range = between(0, 0.4),
-                 .doc = "Moves inner nodes at random by up to this part of the shortest edge there, for tests."});
-  spec.integer("seed", options.seed, {.doc = "Which random distortion."});
+  if (dimension == 2) {
+    spec.quantity("distortion", options.distortion,
+                  {.unit = "",
+                   .range = between(0, 0.4),
+                   .doc = "Moves inner nodes at random by up to this part of the shortest edge there, for tests."});
+    spec.integer("seed", options.seed, {.doc = "Which random distortion."});
+  }
   spec.choice("division", input->division,
               {{"compact", "parts of equal size with short borders"},
                {"scattered", "each cell at random, for tests"},

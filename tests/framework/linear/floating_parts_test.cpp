@@ -46,11 +46,11 @@ class Springs {
     add(local, local, 1);
     add(local, 0, 1);
     add(0, local, 1);
-    system =
-        test::make_system(local + 1, entries_,
-                          {{"rock.displacement", 0, points, 2, BlockKind::bulk_elastic, test::columns_of(places_), {}},
-                           {"pore.pressure", 2 * points, points, 1, BlockKind::bulk_elliptic, test::columns_of(places_), {}},
-                           {"contact.traction", local, 1, 1, BlockKind::interface, {}, {}}});
+    system = test::make_system(
+        local + 1, entries_,
+        {{"rock.displacement", 0, points, 2, BlockKind::bulk_elastic, test::columns_of(places_), {}},
+         {"pore.pressure", 2 * points, points, 1, BlockKind::bulk_elliptic, test::columns_of(places_), {}},
+         {"contact.traction", local, 1, 1, BlockKind::interface, {}, {}}});
   }
 
   LinearSystem system;
