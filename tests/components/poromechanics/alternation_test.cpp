@@ -208,7 +208,7 @@ TEST(Alternation, ExchangedVolumesAreSymmetricAndBounded) {
         }
         for (int k = 0; k < cells; ++k) {
           const Subcell& subcell = region.subcells[k];
-          root[k] = std::sqrt(poromechanics::p_wave_modulus(rock[subcell.cell]) / subcell.area);
+          root[k] = std::sqrt(poromechanics::p_wave_modulus(rock[subcell.cell]) / subcell.measure);
           centers.row(k) = mesh.cell_center[subcell.cell].transpose();
         }
         const double size = root.cwiseInverse().cwiseAbs2().maxCoeff();
