@@ -15,7 +15,7 @@
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
-#include "framework/mesh/network_shape.hpp"
+#include "framework/mesh/quality/network_shape.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 
 namespace sprekk::couplers {
 

@@ -22,7 +22,7 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {

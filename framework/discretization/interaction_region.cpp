@@ -5,8 +5,8 @@
 #include "framework/discretization/dual_vectors.hpp"
 #include "framework/discretization/subface.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/cell_angles.hpp"
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/cell_angles.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 
 namespace sprekk {
 

@@ -5,7 +5,7 @@
 
 #include "framework/dense/least_squares.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 
 namespace sprekk {
 

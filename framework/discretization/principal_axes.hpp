@@ -5,6 +5,7 @@
 
 namespace sprekk {
 
+/// Principal values, and the axes along which they hold.
 struct PrincipalAxes {
   Point values;  ///< in ascending order
   Tensor axes;   ///< a column each, of length 1

@@ -9,7 +9,7 @@
 #include "framework/discretization/principal_axes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/corner_weights.hpp"
-#include "framework/mesh/distances.hpp"
+#include "framework/mesh/search/distances.hpp"
 
 namespace sprekk {
 namespace {

@@ -8,7 +8,7 @@
 #include "framework/frame_output/registry.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "framework/output/table_writer.hpp"
 #include "framework/output/vtu_writer.hpp"
 

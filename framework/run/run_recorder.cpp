@@ -5,7 +5,7 @@
 #include <ctime>
 
 #include "framework/linear/direct/blas_memory.hpp"
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "framework/mesh/topology_hash.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/output/vtu_writer.hpp"

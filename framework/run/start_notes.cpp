@@ -11,7 +11,7 @@
 #include "framework/linear/direct/blas_memory.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/medium.hpp"
-#include "framework/mesh/network_shape.hpp"
+#include "framework/mesh/quality/network_shape.hpp"
 #include "framework/meshing/regions.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/run/unchanging_data.hpp"

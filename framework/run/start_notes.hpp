@@ -1,7 +1,7 @@
 // Notes on a run that is about to begin.
 #pragma once
 
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "framework/scene/model.hpp"
 
 namespace sprekk {

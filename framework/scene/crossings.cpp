@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "framework/mesh/geometry.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "framework/scene/fracture_set.hpp"
 
 namespace sprekk {

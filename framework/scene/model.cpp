@@ -19,7 +19,7 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
 #include "framework/mesh/partition.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/output/activity.hpp"
 #include "framework/output/vtu_writer.hpp"

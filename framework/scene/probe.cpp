@@ -11,7 +11,7 @@
 #include "framework/field/weights_in_cell.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 
 namespace sprekk {
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "framework/assembly/lives_in_part.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 
 namespace sprekk {
 

@@ -9,7 +9,7 @@
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "couplers/well_exchange/early_resistance.hpp"
 #include "couplers/well_exchange/equivalent_radius.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "tests/verification/balance_error.hpp"
 
 namespace sprekk::testing {

@@ -9,7 +9,7 @@
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/mesh/geometry.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::fracture_flow {

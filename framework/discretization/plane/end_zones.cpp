@@ -9,7 +9,7 @@
 #include "framework/discretization/plane/end_surroundings.hpp"
 #include "framework/discretization/plane/ends_nearby.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/search/segment_tree.hpp"
+#include "framework/mesh/search/plane/segment_tree.hpp"
 
 namespace sprekk {
 namespace {

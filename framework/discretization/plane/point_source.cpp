@@ -5,7 +5,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 
 namespace sprekk {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numbers>
 
-#include "framework/mesh/cell_angles.hpp"
 #include "framework/mesh/face_table.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/plane/cell_shape.hpp"
+#include "framework/mesh/quality/cell_angles.hpp"
 
 namespace sprekk {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/search/segment_tree.hpp"
+#include "framework/mesh/search/plane/segment_tree.hpp"
 
 namespace sprekk {
 namespace {

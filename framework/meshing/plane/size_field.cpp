@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "framework/mesh/search/segment_tree.hpp"
+#include "framework/mesh/search/plane/segment_tree.hpp"
 #include "framework/meshing/plane/arrangement.hpp"
 #include "framework/meshing/plane/narrow_gaps.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/mesh/search/segment_tree.hpp"
+#include "framework/mesh/search/plane/segment_tree.hpp"
 #include "framework/meshing/plane/size_field.hpp"
 #include "framework/meshing/validate_shapes.hpp"
 

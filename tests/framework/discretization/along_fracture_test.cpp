@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::test {

@@ -7,7 +7,7 @@
 #include <complex>
 #include <functional>
 
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::test {

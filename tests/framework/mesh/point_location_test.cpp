@@ -1,4 +1,4 @@
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 
 #include <random>
 

@@ -3,8 +3,8 @@
 #include <ctime>
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "framework/config/input_error.hpp"
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/gmsh_module/gmsh_model.hpp"
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <map>
 
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/plane/size_field.hpp"
 #include "framework/meshing/validate_geometry.hpp"

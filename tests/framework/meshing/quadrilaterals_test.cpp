@@ -2,11 +2,11 @@
 #include <random>
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/cell_angles.hpp"
-#include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/plane/cell_shape.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/quality/cell_angles.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
+#include "framework/mesh/search/point_location.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/single_cell_corners.hpp"
 #include "framework/remeshing/overlap.hpp"

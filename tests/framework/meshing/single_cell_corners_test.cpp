@@ -1,7 +1,7 @@
 #include "framework/meshing/single_cell_corners.hpp"
 
 #include "framework/mesh/build_mesh.hpp"
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "tests/framework/mesh/mesh_checks.hpp"
 
 namespace sprekk::test {

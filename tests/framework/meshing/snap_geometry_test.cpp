@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/plane/arrangement.hpp"

@@ -1,7 +1,7 @@
 #include "framework/remeshing/extend_fractures.hpp"
 
-#include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "tests/framework/remeshing/growth_checks.hpp"
 

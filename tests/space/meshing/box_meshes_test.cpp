@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "framework/mesh/mesh_quality.hpp"
 #include "framework/mesh/outer_ridges.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/space/flat_shape.hpp"
 #include "framework/meshing/space/strike_and_dip.hpp"

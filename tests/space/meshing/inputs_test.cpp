@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "framework/config/yaml/parse_yaml.hpp"
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/random/random_fractures.hpp"

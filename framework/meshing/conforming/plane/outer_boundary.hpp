@@ -7,7 +7,7 @@
 
 #include "framework/mesh/face_table.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/mesh/search/segment_tree.hpp"
+#include "framework/mesh/search/plane/segment_tree.hpp"
 
 namespace sprekk {
 

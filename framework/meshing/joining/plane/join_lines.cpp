@@ -11,7 +11,7 @@
 
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/mesh.hpp"
-#include "framework/mesh/search/segment_tree.hpp"
+#include "framework/mesh/search/plane/segment_tree.hpp"
 
 namespace sprekk {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/mesh/point_location.hpp"
+#include "framework/mesh/search/point_location.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/distances.hpp"
+#include "framework/mesh/search/distances.hpp"
 
 namespace sprekk {
 namespace {

@@ -1,4 +1,4 @@
-#include "framework/mesh/distances.hpp"
+#include "framework/mesh/search/distances.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "framework/mesh/network_shape.hpp"
+#include "framework/mesh/quality/network_shape.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "framework/mesh/mesh_quality.hpp"
+#include "framework/mesh/quality/mesh_quality.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "framework/invariants.hpp"
-#include "framework/mesh/cell_angles.hpp"
-#include "framework/mesh/distances.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/mesh/quality/cell_angles.hpp"
+#include "framework/mesh/search/distances.hpp"
 
 namespace sprekk {
 

@@ -1,4 +1,4 @@
-#include "framework/mesh/cell_angles.hpp"
+#include "framework/mesh/quality/cell_angles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "framework/mesh/search/segment_tree.hpp"
+#include "framework/mesh/search/plane/segment_tree.hpp"
 
 #include <algorithm>
 #include <numeric>
