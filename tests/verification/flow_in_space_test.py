@@ -97,6 +97,8 @@ class FlowInSpace(SceneRuns):
 
     def test_two_point_fluxes_are_not_exact_on_triangles(self):
         results = self.run_text(scene("{size: 0.25 m}", CUTS, flow="tpfa"))
+        self.assertTrue(any("take fracture_flow/mfd" in note for note in results.notes))
+        self.assertFalse(any("take fracture_flow/mfd" in note for note in self.run_text(scene("{size: 0.25 m}", CUTS)).notes))
         lines = results.fractures()
         self.assertGreater(np.abs(lines["conduit.pressure"] - linear(lines.centres)).max(), 1e-3)
 

@@ -22,10 +22,15 @@ class MimeticDrops {
   MimeticDrops() = default;  ///< two-point fluxes alone
   explicit MimeticDrops(const Mesh& mesh);
 
+  bool is_empty() const { return of_cell_.empty(); }
+
   /// The ridges by whose fluxes the drop from the centre of a cell to its ridge changes, each with the factor of its
   /// flux over T, 1/m (dimensionless in space). At a junction, `ridge` is any of the ridges there that belong to the
   /// cell.
   std::vector<std::pair<int, double>> at(int cell, int ridge) const;
+
+  /// The number of fracture cells in which two-point fluxes alone are not exact for linear pressures.
+  static long cells_that_need_them(const Mesh& mesh);
 
  private:
   const Mesh* mesh_ = nullptr;

@@ -43,6 +43,12 @@ void FractureFlow::note_input(Notes& notes) const {
            "the end of '" + name() + "' on side '" + side +
                "' has no effect (no fracture ends there) remove it, or let a fracture reach this side");
   }
+  if constexpr (dimension == 3)
+    if (const long count = drops_.is_empty() ? MimeticDrops::cells_that_need_them(mesh_) : 0; count > 0)
+      notes.add(name() + ": two-point fluxes",
+                fmt::format("two-point fluxes along fractures are not exact for linear pressures in {} of {} fracture "
+                            "cells (their error there does not vanish with the size of cells) take fracture_flow/mfd",
+                            count, mesh_.fracture_cell_count()));
   note_ends(notes);
   options_.crossings.note_input(mesh_, name(), notes);
   note_crossings(notes);

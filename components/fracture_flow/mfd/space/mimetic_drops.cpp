@@ -38,6 +38,12 @@ Eigen::MatrixXd beside_two_point_fluxes(const Mesh& mesh, int cell) {
 
 }  // namespace
 
+long MimeticDrops::cells_that_need_them(const Mesh& mesh) {
+  long count = 0;
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i) count += !beside_two_point_fluxes(mesh, i).isZero(0);
+  return count;
+}
+
 MimeticDrops::MimeticDrops(const Mesh& mesh) : mesh_(&mesh), junction_of_ridge_(mesh.ridges.size(), none) {
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) of_cell_.push_back(beside_two_point_fluxes(mesh, i));
   for (std::size_t j = 0; j < mesh.junctions.size(); ++j)
