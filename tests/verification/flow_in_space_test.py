@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from scene_runs import SceneRuns, on_two_processes, sprekk
+from scene_runs import ROOT, SceneRuns, on_two_processes, sprekk
 
 SIDES = ("left", "right", "front", "back", "bottom", "top")
 # Two fractures that cut the box and each other, in general position but for one axis, and one with its rim in the rock.
@@ -163,6 +163,15 @@ class FlowInSpace(SceneRuns):
         path = self.write(text, "restarted.yaml")
         part = self.run_scene(path, *settings, "time.end=0.375 s")
         self.assert_same_bits(self.run_scene(path, *settings, "time.end=0.75 s", restart=part.folder), whole)
+
+    def test_the_scene_of_the_tutorial_has_no_note(self):
+        results = self.run_scene(ROOT / "configs/tutorial/fractured_block.yaml")
+        self.assertEqual(results.notes, [])
+        # What is injected leaves, but for what the fluid stores as its pressure rises.
+        self.assertLess(abs(results.history["fluid_balance_error[m^3]"][-1]), 1e-9 * results.history["fluid_injected[m^3]"][-1])
+        report = self.call("report", results.folder)
+        self.assertEqual(report.returncode, 0, report.stderr)
+        self.assertIn('"inSpace":true', (results.folder / "report.html").read_text())
 
     def test_wells_at_points_share_their_rate_with_the_cells_around(self):
         text = scene("{size: 0.3 m}", {}, pressure="0 Pa", rock_more="    wells: {feed: {at: [0.4 m, 0.7 m, 0.5 m], rate: 2e-3 m^3/s}}\n")
