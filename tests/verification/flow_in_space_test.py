@@ -4,6 +4,7 @@ rest under gravity; scenes of a plane that are extruded; a disc whose pressure i
 
 Twins: fractures in general position, mirrored, values that are disturbed by 1e-9, and two processes."""
 
+import math
 import unittest
 
 import numpy as np
@@ -101,6 +102,57 @@ class FlowInSpace(SceneRuns):
         self.assertFalse(any("take fracture_flow/mfd" in note for note in self.run_text(scene("{size: 0.25 m}", CUTS)).notes))
         lines = results.fractures()
         self.assertGreater(np.abs(lines["conduit.pressure"] - linear(lines.centres)).max(), 1e-3)
+
+    def test_a_curved_pressure_is_of_second_order_with_fractures_that_cross(self):
+        """p = cos(pi y) cos(pi z) in rock and in two fractures, of which one is crossed by the flow, with the sources that this needs."""
+        curve = "cos(pi*y/m)*cos(pi*z/m)"
+        across = "{{points: [[0.5 m, 0 m, 0 m], [0.5 m, 1 m, 0 m], [0.5 m, 1 m, 1 m], [0.5 m, 0 m, 1 m]]}}"
+        upright = "{{points: [[0 m, 0.4 m, 0 m], [1 m, 0.4 m, 0 m], [1 m, 0.4 m, 1 m], [0 m, 0.4 m, 1 m]]}}"
+        errors, cells = [], []
+        for size in (0.16, 0.08, 0.055):
+            results = self.run_text(f"""
+name: curved
+geometry:
+  box: {{x: [0 m, 1 m], y: [0 m, 1 m], z: [0 m, 1 m]}}
+  fractures: {{across: {across.format()}, upright: {upright.format()}}}
+mesh: {{size: {size} m}}
+components:
+  pore:
+    type: matrix_flow/mpfa
+    permeability: 1 m^2
+    viscosity: 1 Pa*s
+    storage: 0 1/Pa
+    source: (2*pi^2*{curve}) 1/s
+    boundary: {{left: {{pressure: ({curve}) Pa}}, right: {{pressure: ({curve}) Pa}}}}
+  conduit:
+    type: fracture_flow/mfd
+    viscosity: 1 Pa*s
+    fluid_compressibility: 0 1/Pa
+    initial_aperture: 0.1 mm
+    transmissivity: constant
+    transmissivity_value: 0.7 m^3
+    normal_permeability: constant
+    normal_permeability_value: 1e8 m/(Pa*s)
+    injection:
+      one: {{fracture: across, rate: (0.7*2*pi^2*{curve}) m^3/s}}
+      other: {{fracture: upright, rate: (0.7*pi^2*{curve}) m^3/s}}
+    boundary: {{left: {{pressure: ({curve}) Pa}}, right: {{pressure: ({curve}) Pa}}}}
+couplers:
+  - {{type: wall_exchange, between: [pore, conduit]}}
+schedule:
+  - solve: [pore, conduit]
+time: {{end: 1 s, step: 1 s}}
+""")
+            of_size = []
+            for kind, name in (("matrix", "pore.pressure"), ("fractures", "conduit.pressure")):
+                fields = results.fields(kind=kind)
+                exact = np.cos(np.pi * fields.centres[:, 1]) * np.cos(np.pi * fields.centres[:, 2])
+                of_size.append(np.sqrt((fields.sizes * (fields[name] - exact) ** 2).sum() / fields.sizes.sum()))
+            errors.append(of_size)
+            cells.append(len(results.fields().sizes))
+        orders = np.log(np.array(errors[0]) / np.array(errors[-1])) / math.log(cells[-1] / cells[0]) * 3
+        print("errors of a curved pressure in rock and fractures:", errors, "orders", orders)
+        self.assertGreater(orders.min(), 1.9)
 
     def test_what_enters_leaves(self):
         results = self.run_text(scene("{size: 0.25 m}", CUTS))

@@ -11,6 +11,7 @@
 #include "framework/config/yaml/load_scene.hpp"
 #include "framework/config/yaml/parse_yaml.hpp"
 #include "framework/scene/model.hpp"
+#include "framework/scene/scene_dimension.hpp"
 
 namespace sprekk {
 namespace {
