@@ -288,7 +288,7 @@ Data read_data(const Node& node, const DataRequest& request) {
   Data data = any_datum(node, request);
   if (request.about.constant_only && !data.is_constant()) {
     throw InputError(node.origin, quoted(request.name) + " is " + quoted(node.text()),
-                     "needed is one number that does not depend on place or time");
+                     "needed is one number that does not depend on " + axes_text() + " or t");
   }
   if (data.depends_on_time() && !request.about.in_time) {
     throw InputError(node.origin, quoted(request.name) + " depends on time: " + quoted(node.text()),

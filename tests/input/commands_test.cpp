@@ -82,15 +82,22 @@ TEST(Schema, IsJsonWithAllSectionsAndTypes) {
   ASSERT_EQ(answer.code, 0) << answer.err;
   const nlohmann::json schema = nlohmann::json::parse(answer.out);
   EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
-  for (const std::string section : {"name", "geometry", "mesh", "materials", "components", "couplers", "schedule",
-                                    "time", "output", "solver", "newton"})
-    EXPECT_TRUE(schema.at("properties").contains(section)) << section;
-  std::set<std::string> types;
-  for (const auto& component : schema["properties"]["components"]["additionalProperties"]["oneOf"])
-    types.insert(component["properties"]["type"]["const"]);
-  for (const auto& coupler : schema["properties"]["couplers"]["items"]["oneOf"])
-    types.insert(coupler["properties"]["type"]["const"]);
-  EXPECT_TRUE(types.count("matrix_flow/tpfa") && types.count("wall_exchange"));
+  // A box with a z makes a scene one in space.
+  EXPECT_EQ(schema.at("if")["properties"]["geometry"]["properties"]["box"]["required"], nlohmann::json({"z"}));
+  for (const std::string where : {"then", "else"}) {
+    const nlohmann::json& properties = schema.at(where).at("properties");
+    for (const std::string section : {"name", "geometry", "mesh", "materials", "components", "couplers", "schedule",
+                                      "time", "output", "solver", "newton"})
+      EXPECT_TRUE(properties.contains(section)) << where << " " << section;
+    std::set<std::string> types;
+    for (const auto& component : properties["components"]["additionalProperties"]["oneOf"])
+      types.insert(component["properties"]["type"]["const"]);
+    for (const auto& coupler : properties["couplers"]["items"]["oneOf"])
+      types.insert(coupler["properties"]["type"]["const"]);
+    EXPECT_TRUE(types.count("matrix_flow/tpfa") && types.count("wall_exchange")) << where;
+    EXPECT_EQ(types.count("fracture_flow/mfd"), where == "then" ? 1u : 0u);
+    EXPECT_EQ(types.count("poromechanics/mpsa"), where == "then" ? 0u : 1u);
+  }
 }
 
 TEST(Show, GivesEveryValueItsOrigin) {
