@@ -5,11 +5,12 @@ rest under gravity; scenes of a plane that are extruded; a disc whose pressure i
 Twins: fractures in general position, mirrored, values that are disturbed by 1e-9, and two processes."""
 
 import math
+import subprocess
 import unittest
 
 import numpy as np
 
-from scene_runs import ROOT, SceneRuns, on_two_processes, sprekk
+from scene_runs import ROOT, SPREKK, SceneRuns, on_two_processes, sprekk
 
 SIDES = ("left", "right", "front", "back", "bottom", "top")
 # Two fractures that cut the box and each other, in general position but for one axis, and one with its rim in the rock.
@@ -224,6 +225,17 @@ time: {{end: 1 s, step: 1 s}}
         report = self.call("report", results.folder)
         self.assertEqual(report.returncode, 0, report.stderr)
         self.assertIn('"inSpace":true', (results.folder / "report.html").read_text())
+        with self.assertRaises(ValueError):
+            results.paths()
+        with self.assertRaises(ValueError):
+            results.fields().grid.triangles()
+        self.assertAlmostEqual(results.fields().sizes.sum(), 100 * 80 * 60, delta=1e-6)
+        self.assertAlmostEqual(results.fractures().mean("conduit.aperture"), 1.6627e-4, delta=3e-8)  # the fault has 5,029 m^2, the others 2,560
+        for tool in ("plot", "turn_scene"):
+            words = [results.folder] if tool == "plot" else [ROOT / "configs/tutorial/fractured_block.yaml", self.folder / "turned", "--program", SPREKK]
+            refused = subprocess.run([ROOT / "tools" / tool, *words], capture_output=True, text=True, check=False)
+            self.assertNotEqual(refused.returncode, 0)
+            self.assertIn("in space", refused.stderr)
 
     def test_wells_at_points_share_their_rate_with_the_cells_around(self):
         text = scene("{size: 0.3 m}", {}, pressure="0 Pa", rock_more="    wells: {feed: {at: [0.4 m, 0.7 m, 0.5 m], rate: 2e-3 m^3/s}}\n")

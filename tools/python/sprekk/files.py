@@ -30,6 +30,8 @@ class Grid:
 
     def triangles(self):
         """Triangles (k, 3) that cover the cells, and the cell of each: a quadrilateral is two of them."""
+        if (self.types > 9).any():
+            raise ValueError("the cells are bodies in space (take simplices())")
         if self.cells.shape[1] == 3:
             return self.cells, np.arange(len(self.cells))
         second = np.flatnonzero(self.cells[:, 2] != self.cells[:, 3])

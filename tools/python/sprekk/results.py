@@ -154,6 +154,8 @@ class Results:
         """{fracture number: [(n, 2) points of a piece of its line]} at a written time: the cells of the fracture, and what has grown
         and is not in the mesh yet."""
         lines = self.fractures(time)
+        if lines.dimension == 3:
+            raise ValueError(f"{self.folder} has a run in space, whose fractures are surfaces (take the points and cells of fractures())")
         pieces = {}
         numbers = lines.grid.cell_data["fracture"]
         for number in np.unique(numbers):
