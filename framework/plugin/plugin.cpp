@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "framework/plugin/interface_name.hpp"
+#include "framework/types.hpp"
 
 extern "C" {
 extern __attribute__((visibility("default"))) const char SPREKK_INTERFACE;
@@ -53,12 +54,19 @@ InputError refused(const std::filesystem::path& file, const std::string& said, c
     return InputError(where, what, said, "build it by sprekk_plugin() of Sprekk's CMake package");
   std::string symbol = said.substr(at + lead.size());
   symbol = symbol.substr(0, symbol.find_first_of(" ,\n\t"));
-  if (symbol.rfind(interface, 0) == 0)
+  if (symbol.rfind(interface, 0) == 0) {
+    const std::string own = SPREKK_TEXT(SPREKK_INTERFACE);
+    const std::string of_plane = "_2d", of_space = "_3d", &other = dimension == 2 ? of_space : of_plane;
+    if (symbol == own.substr(0, own.size() - other.size()) + other)
+      return InputError(where, what,
+                        dimension == 2 ? "it is for scenes in space, and this is none"
+                                       : "it is for scenes in a plane, and this one is in space",
+                        "build it with -D sprekk_DIMENSION=" + std::to_string(dimension));
     return InputError(where, what,
                       "it was built for the interface " + symbol.substr(interface.size()) + ", and this program has " +
-                          std::string(SPREKK_TEXT(SPREKK_INTERFACE)).substr(interface.size()) +
-                          ": version, headers or alignment differ",
+                          own.substr(interface.size()) + ": version, headers or alignment differ",
                       "build it anew, with the headers of this program and its compiler options");
+  }
   return InputError(where, what, "it uses " + quoted(readable(symbol)) + ", which this program does not have",
                     "add the source that defines it to the plug-in, or build it anew for this program");
 }

@@ -106,6 +106,10 @@ def check_refusals(scratch, folder, plugin):
     twin.write_bytes(plugin.read_bytes())
     expect(call(program, "list", "--plugin", str(plugin), "--plugin", str(twin)), 2, "heat_flow/decay_of_heat", "a type of this name exists")
 
+    # One for a plane, with a scene in space.
+    in_space = str(Path(__file__).resolve().parents[2] / "configs/tutorial/fractured_block.yaml")
+    expect(call(program, "check", in_space, "--plugin", str(plugin)), 2, "for scenes in a plane, and this one is in space", "sprekk_DIMENSION=3")
+
     # Another version, a missing function, and a library that is no plug-in.
     sources = scratch / "wrong"
     sources.mkdir()
