@@ -16,9 +16,12 @@ int index_in(std::span<const int> items, int item) {
   return static_cast<int>(std::find(items.begin(), items.end(), item) - items.begin());
 }
 
-template <class Nodes>
-bool touches(const Nodes& face, int node) {
-  return std::find(face.begin(), face.end(), node) != face.end();
+bool touches(const FaceNodes& face, int node) {
+  if constexpr (dimension == 2) {
+    return face[0] == node || face[1] == node;
+  } else {
+    return std::find(face.begin(), face.end(), node) != face.end();
+  }
 }
 
 /// From the centre of an inner face.

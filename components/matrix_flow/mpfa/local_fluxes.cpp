@@ -48,11 +48,11 @@ LocalFluxes::Weights LocalFluxes::symmetric(const Subcell& subcell, const Tensor
 LocalFluxes::Stabilizer LocalFluxes::solve(const Mesh& mesh, int node, const InteractionRegion& region,
                                            const std::vector<Tensor>& mobility,
                                            const std::vector<FlowCondition>& conditions) {
-  points_.clear();
+  points_.resize(region.subface_count());
   bool has_simplices_only = true;
   // Also on walls and on the boundary: with the centre of a wall's face, the flow in a triangle of anisotropic rock may
   // gain energy.
-  for (const int face : region.faces) points_.push_back(continuity_point(mesh, face, node));
+  for (int f = 0; f < region.subface_count(); ++f) points_[f] = continuity_point(mesh, region.faces[f], node);
   for (const Subcell& subcell : region.subcells)
     has_simplices_only = has_simplices_only && is_simplex(mesh, subcell.cell);
   find_arms(mesh, region);

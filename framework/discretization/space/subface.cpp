@@ -27,7 +27,7 @@ Point middle_of_edge(const Mesh& mesh, const CellNodes& wedge, int node) {
 
 }  // namespace
 
-double share_at_node(const Mesh& mesh, int face, int node) {
+double share_in_space(const Mesh& mesh, int face, int node) {
   const FaceNodes& nodes = mesh.face_nodes[face];
   if (nodes.size() == 3) return 1.0 / 3;
   const int k = place_of(node, nodes);
@@ -36,7 +36,7 @@ double share_at_node(const Mesh& mesh, int face, int node) {
   return 0.5 * (mean - mesh.nodes[node]).cross(across).dot(mesh.face_normal[face]) / mesh.face_measure[face];
 }
 
-ContinuityPoint continuity_point(const Mesh& mesh, int face, int node) {
+ContinuityPoint continuity_point_in_space(const Mesh& mesh, int face, int node) {
   const FaceNodes& nodes = mesh.face_nodes[face];
   const Point to_node = mesh.nodes[node] - mesh.face_center[face];
   if (nodes.size() == 3) {
@@ -51,7 +51,7 @@ ContinuityPoint continuity_point(const Mesh& mesh, int face, int node) {
     if (cell == none || mesh.cell_nodes[cell].size() != 6) continue;
     const CellNodes& wedge = mesh.cell_nodes[cell];
     Point mean = Point::Zero();
-    for (const int other : nodes) mean += share_at_node(mesh, face, other) * middle_of_edge(mesh, wedge, other);
+    for (const int other : nodes) mean += share_in_space(mesh, face, other) * middle_of_edge(mesh, wedge, other);
     way += middle_of_edge(mesh, wedge, node) - mean;
     ++wedges;
   }
@@ -62,13 +62,6 @@ ContinuityPoint continuity_point(const Mesh& mesh, int face, int node) {
 std::array<Point, 2> ways_along_face(const Mesh& mesh, int face, int node) {
   const Point &normal = mesh.face_normal[face], to_node = mesh.nodes[node] - mesh.face_center[face];
   return {to_node - normal.dot(to_node) * normal, normal.cross(to_node)};
-}
-
-double subcell_measure(const Point& center, const Point&, const std::array<Point, 3>& face_centers,
-                       const std::array<Point, 3>& subfaces) {
-  double measure = 0;
-  for (int i = 0; i < 3; ++i) measure += subfaces[i].dot(face_centers[i] - center) / 3;
-  return measure;
 }
 
 }  // namespace sprekk
