@@ -10,6 +10,8 @@
 - A scene whose viscosity is another by 1e-9, one on two processes, or one that goes on from its middle has the figures of the first one.
 """
 
+import re
+
 import numpy as np
 
 from . import check_end, check_pressure, run, space, written
@@ -19,7 +21,7 @@ LAST_DIGITS = 1e-13
 TOLERANCE = 1e-6     # of twins, as compare.py
 ISOTROPIC = 10       # up to here a scene counts as one that has a maximum principle
 LEFT_OUT = ("iterations[1]", "fluid_balance_error[m^3]", "step[s]")
-REFUSAL = ("error:", "(")  # a place or an object, and a reason in brackets
+PLACE = re.compile(r":\d+:\d+:|'\w+|\(-?[\d.e-]+, -?[\d.e-]+, ")  # in the file, of an object, or in space
 
 
 def potential(p, centres, pressure):
@@ -173,11 +175,12 @@ def failures(p, instants, history):
 
 
 def refusal(stderr):
-    """What a refusal fails to say."""
-    errors = [line for line in stderr.splitlines() if "error:" in line]
-    if not errors:
+    """What a refusal fails to say: a place, and its reason in brackets."""
+    told = " ".join(stderr.split())
+    if "error:" not in told:
         return ["refusal: without an error"]
-    return [] if all(text in " ".join(stderr.split()) for text in REFUSAL) and "'" in stderr else [f"refusal: without a place or a reason: {errors[0][:200]}"]
+    error = told[told.index("error:"):]
+    return [] if PLACE.search(error) and re.search(r" \(\w", error) else [f"refusal: without a place or a reason: {error[:200]}"]
 
 
 def differences(one, other, tolerance=TOLERANCE):

@@ -49,7 +49,9 @@ def regions(rng, low, high, cells):
         kind = rng.choice(("half", "layer", "box"))
         def plane(axis, least, most):
             if cells:
-                return float(low[axis] + (high[axis] - low[axis]) * rng.randint(round(least * cells[axis]), max(1, round(most * cells[axis]))) / cells[axis])
+                first = min(cells[axis] - 1, round(least * cells[axis])) if most < 0.5 else max(1, round(least * cells[axis]))
+                last = max(first, round(most * cells[axis]) if most > 0.5 else min((cells[axis] - 1) // 2, round(most * cells[axis])))
+                return float(low[axis] + (high[axis] - low[axis]) * rng.randint(first, last) / cells[axis])
             return float(low[axis] + (high[axis] - low[axis]) * rng.uniform(least, most))
         if kind == "box":
             spans = {axis: (plane(a, 0.05, 0.4), plane(a, 0.6, 0.95)) for a, axis in enumerate("xyz")}
