@@ -4,7 +4,7 @@ import shutil
 
 import numpy as np
 
-from . import check_end, examine as one_process, physics, ranges, run, scene, written
+from . import check_end, check_space, examine as one_process, physics, ranges, run, scene, written
 
 # The answer is as good as Newton's last update, 1e-8 of the fields; columns that depend on a difference lose two digits.
 TOLERANCE = 1e-6
@@ -44,6 +44,8 @@ def examine(program, chosen, number, folder):
     if report["outcome"] == "refused":
         if ended.code == 0:
             bad.append("processes: refused on one process only")
+    elif not bad and ended.code != 2 and p["family"] == "space":
+        bad += check_space.differences(written.history(folder / "results"), written.history(folder / "together"))
     elif not bad and ended.code != 2:
         fluid = physics.length(p) * p["aperture"] + p["storage"] * p["width"] * p["height"] * (p["initial"] + p["stress"])
         bad += differences(written.history(folder / "results"), written.history(folder / "together"), fluid)

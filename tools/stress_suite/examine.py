@@ -2,12 +2,14 @@
 
 import shutil
 
-from . import buoyancy, check_balance, check_contact, check_end, check_finite, check_growing, check_heat, check_pressure, check_wells, growing, physics, ranges, run, scene, schemes, swaps, written
+from . import buoyancy, check_balance, check_contact, check_end, check_finite, check_growing, check_heat, check_pressure, check_space, check_wells, growing, physics, ranges, run, scene, schemes, space, swaps, written
 
 
 def describe(p):
     if p["family"] == "growing":
         return growing.describe(p)
+    if p["family"] == "space":
+        return space.describe(p)
     more = scene.MORE[p["family"]].describe(p) if p["family"] in scene.MORE else ""
     return (f"{swaps.describe(p)}{buoyancy.describe(p)}{more}dt = {p['relative_step']:.0e} of diffusion, k = {p['permeability']:.0e}, alpha = {p['alpha']:.2f}, "
             f"S = {p['storage']:.0e}, nu = {p['poisson']:.4f}, friction = {p['friction']:.2f}, "
@@ -29,6 +31,8 @@ def check_fields(p, folder):
     found = check_finite.failures(instants, history)
     if found or not instants:
         return found
+    if p["family"] == "space":
+        return check_space.failures(p, instants, history)
     brought = check_wells.sources(p, history, instants[0]) if p["family"] == "wells" else None
     found = (check_contact.failures(p, instants) + check_balance.failures(p, instants, history, main=0, brought=brought) +
              check_pressure.failures(p, instants, history))
@@ -43,12 +47,27 @@ def cuts_of_the_monolithic_scheme(program, chosen, number, folder):
     return written.iterations_of_steps(ended.folder)[2] if ended.code == 0 and not ended.timed_out else None
 
 
+def look_further(program, chosen, p, path, ended, report):
+    """Of a scene in space: what a refusal says, how far pressures are beyond what is given, and its twin."""
+    if report["outcome"] == "refused":
+        report["failures"] += check_space.refusal(ended.stderr)
+    elif report["outcome"] == "gave up":
+        report["failures"].append(f"end: exit code 1: {report['reason']}")
+    elif report["outcome"] == "answer":
+        instants = written.instants(ended.folder)
+        report["overshoot"] = check_space.overshoot(p, instants, check_space.Places(instants[0]))[1]
+        if p["twin"] != "none" and chosen.processes == 1:
+            report["twin"] = p["twin"]
+            report["failures"] += check_space.twin(program, p, path, path.parent, chosen.limit)
+
+
 def examine(program, chosen, number, folder, keep=False):
     """{number, outcome, failures, iterations, accepted, rejected, together, monolithic cuts, seconds}; the folder is removed unless it
     is kept. Of a scene that is solved in turn and was cut, the monolithic scheme's cuts are counted as well."""
     p = ranges.draw(chosen.seed, number, chosen.family, chosen.update, chosen.scheme, chosen.swapped, chosen.buoyant)
     shutil.rmtree(folder, ignore_errors=True)
-    ended = run.run(program, scene.write(p, folder), folder / "results", chosen.limit)
+    path = scene.write(p, folder)
+    ended = run.run(program, path, folder / "results", chosen.limit)
     report = {"number": number, "failures": check_end.failures(ended), "iterations": [], "accepted": 0, "rejected": 0, "together": 0,
               "in turn": p.get("solved", schemes.MONOLITHIC) != schemes.MONOLITHIC, "monolithic cuts": 0,
               "balance": 0.0, "seconds": round(ended.seconds, 2), "scene": describe(p), "reason": "",
@@ -67,6 +86,8 @@ def examine(program, chosen, number, folder, keep=False):
         if report["accepted"] > 0:
             report["balance"] = check_balance.relative_error_of_balance(written.history(ended.folder))
             report["failures"] += check_fields(p, ended.folder)
+    if p["family"] == "space":
+        look_further(program, chosen, p, path, ended, report)
     if report["failures"]:
         report["outcome"] = "failed"
     if not keep:

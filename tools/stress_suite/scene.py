@@ -2,7 +2,7 @@
 
 import math
 
-from . import buoyancy, fractures, growing, heat, limited_wells, physics, schemes, swaps, twisted_mesh
+from . import buoyancy, fractures, growing, heat, limited_wells, physics, schemes, space, swaps, twisted_mesh
 
 
 def box_and_mesh(p):
@@ -55,6 +55,8 @@ def write(p, folder):
     folder.mkdir(parents=True, exist_ok=True)
     if p["family"] == "growing":
         return growing.write(p, folder / "scene.yaml")
+    if p["family"] == "space":
+        return space.write(p, folder / "scene.yaml")
     if p["mesh"] == "twisted":
         twisted_mesh.write(p, folder / "mesh.msh")
         shape = "geometry: {file: mesh.msh}"

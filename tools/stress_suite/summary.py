@@ -56,7 +56,26 @@ def figures(reports):
             "iterations, median": share(0.5), "iterations, 99 percent": share(0.99), "iterations, most": share(1.0),
             "scenes by error of the balance": {f"below {limit:g}": sum(1 for r in reports if r["accepted"] and r["balance"] < limit)
                                              for limit in (1e-12, 1e-9, 1e-6, 1e-3, 1e300)},
+            **of_space(reports),
             "seconds": round(sum(report["seconds"] for report in reports), 1)}
+
+
+def of_space(reports):
+    """What the family space counts besides; nothing for the others."""
+    if not any("overshoot" in report for report in reports):
+        return {}
+    beyond = [report["overshoot"] for report in reports if report.get("overshoot") is not None]
+    return {"twins": dict(Counter(report["twin"] for report in reports if "twin" in report)), "scenes with bounds": len(beyond),
+            "scenes by overshoot": {f"above {limit:g}": sum(1 for over in beyond if over > limit) for limit in (1e-9, 1e-3, 1e-2, 5e-2)},
+            "largest overshoot": max(beyond, default=0.0)}
+
+
+def text_of_space(f):
+    if "twins" not in f:
+        return ""
+    beyond = ", ".join(f"{count} {limit}" for limit, count in f["scenes by overshoot"].items())
+    return (f"\npressures beyond those given, as parts of all differences: {beyond} of {f['scenes with bounds']} scenes with bounds, at most {f['largest overshoot']:.2g}; "
+            f"twins: {', '.join(f'{count} {name}' for name, count in sorted(f['twins'].items())) or 'none'}")
 
 
 MOST_CUTS = 2.0  # percent of the steps
@@ -85,7 +104,7 @@ def text(reports):
             f"({f['steps cut, percent']} %) in {f['scenes with cuts']} scenes; Newton iterations a step: median "
             f"{f['iterations, median']}, 99 % at most {f['iterations, 99 percent']}, most {f['iterations, most']}\n"
             f"places in answered scenes where steps were cut: {f['reasons of cuts']['singular']} singular systems, "
-            f"{f['reasons of cuts']['not converged']} without convergence{in_turn_line}")
+            f"{f['reasons of cuts']['not converged']} without convergence{in_turn_line}{text_of_space(f)}")
 
 
 def commit():
