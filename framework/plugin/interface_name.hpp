@@ -8,8 +8,8 @@
 #include "framework/plugin/interface_tag.hpp"
 #include "framework/types.hpp"
 
-#define SPREKK_JOIN_NAMES(a, b, c, d) a##b##_##c##_##d##d
-#define SPREKK_JOIN(a, b, c, d) SPREKK_JOIN_NAMES(a, b, c, d)
+#define SPREKK_JOIN_NAMES(a, b, c, n) a##b##_##c##_##n##d
+#define SPREKK_JOIN(a, b, c, n) SPREKK_JOIN_NAMES(a, b, c, n)
 /// The symbol that the program defines and that each plug-in asks for.
 #define SPREKK_INTERFACE \
   SPREKK_JOIN(sprekk_interface_, SPREKK_INTERFACE_TAG, EIGEN_IDEAL_MAX_ALIGN_BYTES, SPREKK_DIMENSION)

@@ -190,9 +190,10 @@ void take_cells(const Node& whole, const std::vector<double>& cells, MeshOptions
   constexpr double most = 1e7;
   const auto is_count = [](double count) { return count == std::floor(count) && count <= most; };
   if (cells.size() != dimension || !std::ranges::all_of(cells, is_count)) {
-    throw InputError(origin, std::string("cells are not ") + (dimension == 2 ? "two" : "three") + " whole numbers",
-                     "they count the " + cells_counted + " along " + axes,
-                     dimension == 2 ? "write cells: [20, 20]" : "write cells: [20, 20, 20]");
+    throw InputError(
+        origin, std::string("cells are not ") + (dimension == 2 ? "two" : "three") + " whole numbers",
+        "they count the " + cells_counted + " along " + axes + (dimension == 2 ? "" : ", since the box has a z"),
+        dimension == 2 ? "write cells: [20, 20]" : "write cells: [20, 20, 20]");
   }
   for (int axis = 0; axis < dimension; ++axis) options.cells[axis] = static_cast<int>(cells[axis]);
 }
