@@ -111,17 +111,21 @@ void Options::declare_conduction(Spec& spec) {
              .in_time = true});
   Spec walls("wall_permeability",
              "Walls of different normal permeability, as by a filter cake or a skin on one of them.");
-  const auto wall = [&](const char* key, std::optional<Data>& value, const char* side) {
+  const auto wall = [&](const char* key, std::optional<Data>& value, const std::string& which) {
     walls.data(key, value,
                {.unit = "m/(Pa*s)",
                 .range = non_negative(),
-                .doc = std::string("Of the wall on the ") + side +
-                       " as one looks from the first to the last point of the fracture; without it, it is that of "
-                       "normal_permeability.",
+                .doc = "Of the wall on the " + which + "; without it, it is that of normal_permeability.",
                 .in_time = true});
   };
-  wall("left", wall_permeability[0], "left");
-  wall("right", wall_permeability[1], "right");
+  if constexpr (dimension == 2) {
+    const std::string seen = " as one looks from the first to the last point of the fracture";
+    wall("left", wall_permeability[0], "left" + seen);
+    wall("right", wall_permeability[1], "right" + seen);
+  } else {
+    wall("plus", wall_permeability[0], "side from which the points of the fracture turn clockwise");
+    wall("minus", wall_permeability[1], "other side");
+  }
   spec.section("wall_permeability", walls, {.doc = "The normal permeability kappa of single walls."});
 }
 
