@@ -162,6 +162,21 @@ time: {{end: 1 s, step: 1 s}}
         # K grad p through the left side: -(1 - 0.6 + 0.2) over its area, without the width of the fractures.
         self.assertAlmostEqual(results["pore.left.outflow"][-1], (1 * 1 + 0.3 * -2 + 0.4 * 0.5) * 1.2 * 0.9, delta=1e-8)
 
+    def test_walls_are_where_their_names_say(self):
+        """Seen from the left the points turn clockwise: the plus side is there."""
+        for wall, open_side in (("minus", "left"), ("plus", "right")):
+            text = scene("{size: 0.3 m}", {"one": [[0.5, 0, 0], [0.5, 1.2, 0], [0.5, 1.2, 0.9], [0.5, 0, 0.9]]}, pressure=None)
+            text = text.replace("    normal_permeability: constant\n", f"    wall_permeability: {{{wall}: 0 m/(Pa*s)}}\n    normal_permeability: constant\n"
+                                "    prescribed: {all: {fracture: one, pressure: 1 Pa}}\n")
+            text = text.replace("boundary: {}", "boundary: {left: {pressure: 0 Pa}, right: {pressure: 0 Pa}}", 1)
+            results = self.run_text(text)
+            for side in ("left", "right"):
+                flow = results[f"pore.{side}.outflow"][-1]
+                if side == open_side:
+                    self.assertGreater(flow, 1)
+                else:
+                    self.assertLess(abs(flow), 1e-9)
+
     def test_parts_of_sides_have_conditions_of_their_own(self):
         """A linear pressure on a part of the left side, what leaves there, and no flow through the other part: as the whole side."""
         parts = "sides: {{low: {{on: left, z: [0 m, 0.3 m]}}, patch: {{on: top, x: [0.25 m, 0.75 m], y: [0.3 m, 0.6 m]}}}}"
