@@ -13,6 +13,9 @@ namespace sprekk {
 namespace {
 
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+/// Below this numbers lose digits by underflow. Values that are to be zero, but are solved for among large ones, shrink
+/// by 1e-16 in each iteration until they get there.
+constexpr double no_digits = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
 /// What the rounded exchanges of the rows of an unknown may add up to.
 double noise_of_rows(const Assembly& assembly, const BlockSystem& system, int unknown) {
@@ -213,7 +216,7 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
     }
     largest = parallel::max(finite ? largest : std::numeric_limits<double>::infinity());
     const double magnitude = parallel::max(assembly.magnitude(static_cast<int>(u)));
-    const double noise = round_off * parallel::max(assembly.round_off_base(static_cast<int>(u)));
+    const double noise = round_off * parallel::max(assembly.round_off_base(static_cast<int>(u))) + no_digits;
     squares = parallel::sum(squares);
     count = std::max(1.0, parallel::sum(count));
     if (!std::isfinite(largest) || !std::isfinite(magnitude)) {

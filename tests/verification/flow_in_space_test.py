@@ -155,6 +155,16 @@ time: {{end: 1 s, step: 1 s}}
         print("errors of a curved pressure in rock and fractures:", errors, "orders", orders)
         self.assertGreater(orders.min(), 1.9)
 
+    def test_a_fracture_at_zero_pressure_has_its_answer_with_every_solver(self):
+        """What MUMPS leaves of zero pressures and fluxes is no residual."""
+        text = scene("{kind: structured, shape: hexahedra, cells: [5, 2, 5]}", {"one": [[0, 50, 0], [100, 50, 0], [100, 50, 100], [0, 50, 100]]},
+                     pressure=None, walls="1e3 m/(Pa*s)", box="{x: [0 m, 100 m], y: [0 m, 100 m], z: [0 m, 100 m]}",
+                     rock_more="    initial_pressure: 5e6 Pa\n", fluid="viscosity: 2e-4 Pa*s, fluid_compressibility: 0 1/Pa, initial_pressure: 5e6 Pa")
+        text = text.replace("boundary: {}", "boundary: {bottom: {pressure: 3e6 Pa}}", 1).replace("boundary: {}", "prescribed: {all: {fracture: one, pressure: 0 Pa}}", 1)
+        rates = [self.run_text(text, f"solver={{type: {solver}}}")["conduit.all.rate"][-1] for solver in ("umfpack", "mumps")]
+        self.assertAlmostEqual(rates[1], rates[0], delta=1e-9 * abs(rates[0]))
+        self.assertLess(rates[0], -1)
+
     def test_what_enters_leaves(self):
         results = self.run_text(scene("{size: 0.25 m}", CUTS))
         flows = [values[-1] for name, values in results.history.items() if "outflow[" in name and "fluid" not in name]
