@@ -13,8 +13,8 @@ namespace sprekk {
 namespace {
 
 constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
-/// Squares of smaller numbers are zero, so no norm shows them. Values that are to be zero, but are solved for among large
-/// ones, shrink by 1e-16 in each iteration until they get there.
+/// Squares of smaller numbers are zero, so no norm shows them. Values that are to be zero, but are solved for among
+/// large ones, shrink by 1e-16 in each iteration until they get there.
 constexpr double no_digits = 1e-154;
 
 /// What the rounded exchanges of the rows of an unknown may add up to.
