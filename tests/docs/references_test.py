@@ -7,7 +7,7 @@ import sys
 
 from pages import ROOT, pages
 
-REFERENCE = re.compile(r"\b(?:Eqs?\.|Equations?|[Ss]ecs?\.|[Ss]ections?|Tables?|Figs?\.|Figures?|Algorithm) ?\d[\d.]*")
+REFERENCE = re.compile(r"\b(?:(?:Eqs?\.|Equations?|[Ss]ecs?\.|[Ss]ections?|Tables?|Figs?\.|Figures?) ?|Algorithm )\d[\d.]*")
 NAMED = re.compile(r"paper|Dang|\btheir |\b(?:18|19|20)\d\d\b|\*[A-Z][^*]+\*, ")  # or an author with a year, or a *Title*
 BEFORE, AFTER = 160, 60
 
