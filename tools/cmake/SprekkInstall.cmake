@@ -4,7 +4,7 @@ set(made ${CMAKE_BINARY_DIR}/share)
 set(shared_files)
 function(sprekk_prints file folder)
   add_custom_command(OUTPUT ${made}/${file} COMMAND ${CMAKE_COMMAND} -E make_directory ${made}
-                     COMMAND $<TARGET_FILE:sprekk> ${ARGN} > ${made}/${file} DEPENDS sprekk VERBATIM)
+                     COMMAND $<TARGET_FILE:sprekk> ${ARGN} > ${made}/${file} DEPENDS sprekk sprekk-space VERBATIM)
   set(shared_files ${shared_files} ${made}/${file} PARENT_SCOPE)
   install(FILES ${made}/${file} DESTINATION ${folder})
 endfunction()
