@@ -1,6 +1,6 @@
 #include "framework/meshing/place_from_row.hpp"
 
-#include <cmath>
+#include <numbers>
 
 #include "framework/meshing/space/strike_and_dip.hpp"
 
@@ -16,6 +16,10 @@ void place_from_row(const std::function<double(const std::string& column, const 
   };
   const Point center(value("x", "m"), value("y", "m"), value("z", "m"));
   const StrikeAndDip plane{value("strike", "rad"), value("dip", "rad")};
+  if (!(plane.dip >= 0 && plane.dip <= std::numbers::pi / 2))
+    throw InputError(fracture.origin, "the dip of fracture '" + fracture.name + "' is not from 0 to 90 degrees",
+                     "it counts from the horizontal, to the right of the strike",
+                     "where it dips to the left, turn the strike by 180 degrees");
   if (has("radius")) {
     const double radius = positive("radius");
     fracture.ellipse = ellipse(center, plane, radius, radius);

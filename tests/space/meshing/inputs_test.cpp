@@ -80,6 +80,8 @@ TEST(ScenesInSpace, RefuseKeysOfThePlane) {
               HasSubstr("is given twice"));
   EXPECT_THAT(refusal(cube + "fractures: {f: {center: [2, 2, 2], radius: [1 m, 2 m, 3 m]}}"),
               HasSubstr("'radius' has 3 values"));
+  EXPECT_THAT(refusal(cube + "fractures: {f: {center: [2, 2, 2], radius: 1 m, dip: 120 deg}}"),
+              AllOf(HasSubstr("'dip'"), HasSubstr("out of range")));
 }
 
 TEST(ScenesInSpace, GiveRegionsByBoxesHalfSpacesAndLayers) {
@@ -156,6 +158,9 @@ TEST_F(TablesInSpace, HoldPolygonsRectanglesAndDiscs) {
   EXPECT_NEAR(geometry.fractures.at(0).ellipse->other_axis.norm(), 0.5, 1e-12);
   write("wrong.csv", "x,y,z,strike\n1,1,1,0\n");
   EXPECT_THAT(refusal(cube + "fractures: {set: {table: wrong.csv}}", folder), HasSubstr("lacks columns"));
+  write("overturned.csv", "x,y,z,strike[deg],dip[deg],radius\n2,2,2,0,120,1\n");
+  EXPECT_THAT(refusal(cube + "fractures: {set: {table: overturned.csv}}", folder),
+              HasSubstr("is not from 0 to 90 degrees"));
 }
 
 TEST(RandomSetsInSpace, FollowFishersLawAndKeepApart) {

@@ -48,7 +48,7 @@ void add_place(Spec& spec, const std::shared_ptr<FracturePlace>& place) {
   spec.quantity(
       "dip", place->dip,
       {.unit = "rad",
-       .range = between(0, std::numbers::pi),
+       .range = between(0, std::numbers::pi / 2),
        .doc = "How steeply it dips: 0 is horizontal, 90 degrees upright. By default 90 degrees. The plus side "
               "is below it, or to the left of the strike."});
   spec.quantity("length", place->length,
