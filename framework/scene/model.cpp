@@ -9,12 +9,8 @@
 #include <stdexcept>
 
 #include "framework/assembly/assemble_all.hpp"
-#include "framework/assembly/counts_from_here.hpp"
-#include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/may_store_nothing.hpp"
-#include "framework/assembly/notes_start.hpp"
-#include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/expect_sound_mesh.hpp"
@@ -106,145 +102,6 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
       others.push_back({name + what, balance.unit, 0});
   require_own_columns(scene_.output, probes_, outputs, others);
   check_outputs();
-}
-
-void Model::check_outputs() const {
-  std::vector<FrameOutputChoice> outputs = scene_.output.chosen_outputs();
-  std::erase_if(outputs, [](const FrameOutputChoice& output) { return !output.check; });
-  if (outputs.empty()) return;
-  const std::vector<OutputField> fields = output();
-  const Frame start{scene_.time.start, 0, mesh_, fields, {}};
-  for (const FrameOutputChoice& output : outputs) output.check(start);
-}
-
-void Model::make_start(const ScheduleContext& context) {
-  const StartOptions& start = scene_.start;
-  if (start.settle.empty()) return;
-  if (!growing_.empty())
-    throw InputError(start.origin, "the state at the start is not settled in a scene whose fractures grow",
-                     "a mesh that has changed does not know the state from which changes are counted",
-                     "remove 'settle', or the 'grow' step");
-  const auto is_settled = [&](const std::string& name) { return std::ranges::count(start.settle, name) > 0; };
-  for (const std::string& name : start.settle) {
-    if (const auto* part = dynamic_cast<const CountsFromHere*>(context.named.at(name))) part->require_countable();
-    if (context.solved_fields({name}).empty())
-      throw InputError(start.origin, "'" + name + "' cannot be settled", "it has no unknowns",
-                       "remove it from 'settle'");
-  }
-  for (const Part* part : parts_)
-    if (const auto* rests = dynamic_cast<const RestsTogether*>(part))
-      for (const Dependence& dependence : rests->dependences_at_rest())
-        if (is_settled(dependence.component) && !is_settled(dependence.on))
-          throw InputError(start.origin, "'" + dependence.component + "' is settled without '" + dependence.on + "'",
-                           dependence.because, "name both in 'settle'");
-  SolveOptions options;
-  options.components = start.settle;
-  options.origin = start.origin;
-  options.newton = scene_.newton;
-  options.linear = scene_.linear;
-  ScheduleContext quiet = context;
-  quiet.log = {};  // coupling.csv has the iterations of time steps
-  settle_ = std::make_unique<SolveStep>(options, quiet);
-}
-
-namespace {
-
-/// Turns the status into "not converged" where a value grows with the time, however small the rate: then there is no
-/// state at rest.
-void refuse_growth(const std::vector<const Field*>& settled, StepStatus& status) {
-  constexpr double without_end = 1e12;  // in the unit of the field, or of its largest value before
-  for (const Field* field : settled) {
-    if (field->size() == 0) continue;
-    const double before = parallel::max(field->accepted().lpNorm<Eigen::Infinity>());
-    if (parallel::max(field->now().lpNorm<Eigen::Infinity>()) <= without_end * std::max(1.0, before)) continue;
-    status.converged = false;
-    status.reason = field->name() + " grows without end: what is brought in has no way out";
-    return;
-  }
-}
-
-}  // namespace
-
-StepStatus Model::settle_start() {
-  if (!settle_) return {true, "", 0};
-  now_doing("settling the state at the start");
-  // What depends on the length of steps is that of the first one: the state rests in the equations of the run.
-  const StepTime first{scene_.time.start, scene_.time.step, scene_.time.start};
-  begin_step(parts_, first);
-  constexpr double forever = 1e30;  // s
-  StepStatus status = settle_->run({first.start, forever, first.end});
-  if (status.converged) refuse_growth(settle_->unknowns(), status);
-  if (!status.converged) return status;
-  for (Part* part : parts_)
-    if (auto* totals = dynamic_cast<KeepsTotals*>(part)) totals->begin_totals();
-  count_from_here({settle_->unknowns()});
-  accept();
-  return status;
-}
-
-void Model::note_start() {
-  if (scene_.start.from) return;
-  for (const auto& component : components_) {
-    const auto* notes = dynamic_cast<const NotesStart*>(component.get());
-    if (notes && std::ranges::count(scene_.start.settle, component->name()) == 0) notes->note_start(scene_.notes);
-  }
-}
-
-void Model::count_from_here(const SettledFields& settled) {
-  for (Part* part : parts_)
-    if (auto* counts = dynamic_cast<CountsFromHere*>(part)) counts->count_from_here(settled);
-  for (Part* part : parts_)
-    if (auto* amounts = dynamic_cast<CountsAmounts*>(part)) amounts->count_amounts_from_here(settled);
-}
-
-void Model::check_determined() const {
-  const std::vector<const Field*> solved = schedule_->unknowns();
-  for (const auto& field : fields_.all()) {
-    const FieldSpec& spec = field->spec();
-    const auto entry = std::find_if(scene_.components.begin(), scene_.components.end(),
-                                    [&](const Scene::ComponentEntry& c) { return c.name == spec.owner; });
-    const Origin origin = entry != scene_.components.end() ? entry->origin : scene_.whole.origin;
-    if (spec.role.is_input() && !spec.needs_coupler.empty() && field->determined_by().empty())
-      throw InputError(origin, "nobody determines " + field->name(),
-                       "component '" + spec.owner + "' needs a coupler of type '" + spec.needs_coupler + "'",
-                       "add '- {type: " + spec.needs_coupler + ", between: [" + spec.owner + ", …]}' to 'couplers:'");
-    if (field->is_solved() && field->size() > 0 && std::find(solved.begin(), solved.end(), field.get()) == solved.end())
-      throw InputError(scene_.schedule_origin(), "no step solves for " + field->name(),
-                       "the schedule does not name component '" + spec.owner + "'", "add it to a 'solve'");
-  }
-}
-
-void Model::check_stages() const {
-  if (scene_.time.scheme == TimeScheme::backward_euler) return;
-  const auto refuse = [&](const std::string& part) {
-    throw InputError(scene_.time.scheme_origin, part + " is of first order in time",
-                     "it takes time steps of one stage only", "leave 'scheme' out, or the part");
-  };
-  for (const auto& component : components_)
-    if (!component->allows_stages()) refuse("component '" + component->name() + "'");
-  for (const auto& coupler : couplers_)
-    if (!coupler->allows_stages()) refuse("coupler '" + coupler->name() + "'");
-}
-
-void Model::check_data() {
-  const TimeOptions& time = scene_.time;
-  const double step = std::min(time.step, time.end - time.start);
-  std::vector<StepTime> steps = {{time.end - step, step, time.end}};
-  for (const double jump : switch_times()) {
-    if (jump <= time.start || jump >= time.end) continue;
-    const double end = std::min(jump + step, time.end);
-    steps.push_back({jump, end - jump, end});
-  }
-  // The first step comes last, so that parts keep the data of the first step.
-  steps.push_back({time.start, step, time.start + step});
-  for (const StepTime& at : steps)
-    for (Part* part : parts_) part->evaluate_data(at);
-}
-
-void Model::check_constant_modes() const {
-  ConstantModes modes;
-  for (const Part* part : parts_) part->hold_constants(modes);
-  modes.require_held();
 }
 
 namespace {

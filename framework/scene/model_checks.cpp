@@ -1,0 +1,69 @@
+// What is wrong with a scene, and shows only when its parts exist.
+#include "framework/scene/model.hpp"
+
+#include <algorithm>
+
+#include "framework/output/vtu_writer.hpp"
+
+namespace sprekk {
+
+void Model::check_outputs() const {
+  std::vector<FrameOutputChoice> outputs = scene_.output.chosen_outputs();
+  std::erase_if(outputs, [](const FrameOutputChoice& output) { return !output.check; });
+  if (outputs.empty()) return;
+  const std::vector<OutputField> fields = output();
+  const Frame start{scene_.time.start, 0, mesh_, fields, {}};
+  for (const FrameOutputChoice& output : outputs) output.check(start);
+}
+
+void Model::check_determined() const {
+  const std::vector<const Field*> solved = schedule_->unknowns();
+  for (const auto& field : fields_.all()) {
+    const FieldSpec& spec = field->spec();
+    const auto entry = std::find_if(scene_.components.begin(), scene_.components.end(),
+                                    [&](const Scene::ComponentEntry& c) { return c.name == spec.owner; });
+    const Origin origin = entry != scene_.components.end() ? entry->origin : scene_.whole.origin;
+    if (spec.role.is_input() && !spec.needs_coupler.empty() && field->determined_by().empty())
+      throw InputError(origin, "nobody determines " + field->name(),
+                       "component '" + spec.owner + "' needs a coupler of type '" + spec.needs_coupler + "'",
+                       "add '- {type: " + spec.needs_coupler + ", between: [" + spec.owner + ", …]}' to 'couplers:'");
+    if (field->is_solved() && field->size() > 0 && std::find(solved.begin(), solved.end(), field.get()) == solved.end())
+      throw InputError(scene_.schedule_origin(), "no step solves for " + field->name(),
+                       "the schedule does not name component '" + spec.owner + "'", "add it to a 'solve'");
+  }
+}
+
+void Model::check_stages() const {
+  if (scene_.time.scheme == TimeScheme::backward_euler) return;
+  const auto refuse = [&](const std::string& part) {
+    throw InputError(scene_.time.scheme_origin, part + " is of first order in time",
+                     "it takes time steps of one stage only", "leave 'scheme' out, or the part");
+  };
+  for (const auto& component : components_)
+    if (!component->allows_stages()) refuse("component '" + component->name() + "'");
+  for (const auto& coupler : couplers_)
+    if (!coupler->allows_stages()) refuse("coupler '" + coupler->name() + "'");
+}
+
+void Model::check_data() {
+  const TimeOptions& time = scene_.time;
+  const double step = std::min(time.step, time.end - time.start);
+  std::vector<StepTime> steps = {{time.end - step, step, time.end}};
+  for (const double jump : switch_times()) {
+    if (jump <= time.start || jump >= time.end) continue;
+    const double end = std::min(jump + step, time.end);
+    steps.push_back({jump, end - jump, end});
+  }
+  // The first step comes last, so that parts keep the data of the first step.
+  steps.push_back({time.start, step, time.start + step});
+  for (const StepTime& at : steps)
+    for (Part* part : parts_) part->evaluate_data(at);
+}
+
+void Model::check_constant_modes() const {
+  ConstantModes modes;
+  for (const Part* part : parts_) part->hold_constants(modes);
+  modes.require_held();
+}
+
+}  // namespace sprekk
