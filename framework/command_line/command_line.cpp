@@ -130,7 +130,7 @@ class Commands {
 
   /// Does what the arguments, which have been parsed, ask for.
   ExitCode run() {
-    if (!scene_.files.empty()) require_dimension(scene_.load());
+    if (!scene_.files.empty()) require_dimension(scene_.load(), scene_.folder());
     take_plugins_of_environment();
     for (const std::string& file : plugins_) load_plugin_of_user(file, {"--plugin"});
     for (const std::string& folder : plugin_folders_) trust_plugins_in(folder, {"--plugins"});

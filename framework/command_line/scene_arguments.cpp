@@ -23,10 +23,13 @@ Node SceneArguments::load() const {
   return load_scene(files, overrides);
 }
 
-Scene SceneArguments::read() const {
-  const Node whole = load();
+std::string SceneArguments::folder() const {
   const std::string folder = std::filesystem::path(files.front()).parent_path().string();
-  return read_scene(whole, folder.empty() ? "." : folder, std::filesystem::path(files.front()).stem().string());
+  return folder.empty() ? "." : folder;
+}
+
+Scene SceneArguments::read() const {
+  return read_scene(load(), folder(), std::filesystem::path(files.front()).stem().string());
 }
 
 }  // namespace sprekk

@@ -15,6 +15,8 @@ struct SceneArguments {
   std::vector<std::string> settings;  ///< "a.b=value"
 
   void add_to(CLI::App& command);
+  /// The folder of the first file, to which the files that the scene names are relative.
+  std::string folder() const;
   /// The scene as it is written, with the overrides. Throws InputError.
   Node load() const;
   /// Reads the scene. Throws InputError.

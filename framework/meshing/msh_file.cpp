@@ -1,6 +1,7 @@
 #include "framework/meshing/msh_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <optional>
 #include <set>
@@ -28,11 +29,11 @@ Kind kind_of(int type) {
     case 3:
       return {2, 4};
     case 4:
-      return dimension == 3 ? Kind{3, 4} : Kind{0, 0};
+      return {3, 4};
     case 5:
-      return dimension == 3 ? Kind{3, 8} : Kind{0, 0};
+      return {3, 8};
     case 6:
-      return dimension == 3 ? Kind{3, 6} : Kind{0, 0};
+      return {3, 6};
     case 15:
       return {0, 1};
     default:
@@ -40,7 +41,8 @@ Kind kind_of(int type) {
   }
 }
 
-constexpr int pyramid = 7;          // its type
+constexpr int pyramid = 7;                                                   // its type
+constexpr std::array volumes{4, 5, 6, pyramid, 11, 12, 13, 14, 17, 18, 19};  // up to second order
 constexpr int most_tags = 100'000;  // of an element: more is a file that is damaged
 
 /// Whether the type is a line with more than two nodes.
@@ -49,6 +51,9 @@ bool is_curved_line(int type) { return type == 8 || (type >= 26 && type <= 28); 
 class Parser {
  public:
   explicit Parser(std::string_view bytes) : cursor_(bytes) { file_.bytes = bytes; }
+
+  /// Whether an element that was read has a volume.
+  bool has_volumes() const { return has_volumes_; }
 
   MshFile parse() {
     read_format();
@@ -210,9 +215,10 @@ class Parser {
   }
 
   /// The kind of an element by its type. Throws InputError at `place` for other types.
-  Kind require_kind(int type, std::size_t place) const {
+  Kind require_kind(int type, std::size_t place) {
+    if (std::find(volumes.begin(), volumes.end(), type) != volumes.end()) has_volumes_ = true;
     const Kind kind = kind_of(type);
-    if (kind.node_count > 0) return kind;
+    if (kind.node_count > 0 && kind.dimension <= dimension) return kind;
     cursor_.fail_at(place, std::string("the file holds elements that are no ") +
                                (is_curved_line(type) ? "two-node lines"
                                 : dimension == 2     ? "three-node triangles or four-node quadrilaterals"
@@ -364,6 +370,7 @@ class Parser {
   MshCursor cursor_;
   MshFile file_;
   bool is_new_ = false;  ///< version 4.1
+  bool has_volumes_ = false;
   std::set<std::string> read_;
   MshEntities entities_;
   std::map<int, int> old_lists_;  ///< list of groups, by group
@@ -380,5 +387,15 @@ std::string MshFile::where(std::size_t place) const {
 }
 
 MshFile parse_msh(std::string_view bytes) { return Parser(bytes).parse(); }
+
+int dimension_of_msh(std::string_view bytes) {
+  Parser parser(bytes);
+  try {
+    parser.parse();
+  } catch (const InputError&) {
+    // A plane's parser ends at the first volume; whatever else is wrong is told by who uses the file.
+  }
+  return parser.has_volumes() ? 3 : 2;
+}
 
 }  // namespace sprekk

@@ -49,4 +49,7 @@ struct MshFile {
 /// not list.
 MshFile parse_msh(std::string_view bytes);
 
+/// 3 for a mesh file with elements that have a volume, else 2, also for what is no mesh.
+int dimension_of_msh(std::string_view bytes);
+
 }  // namespace sprekk

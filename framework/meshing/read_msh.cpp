@@ -261,6 +261,14 @@ std::string bytes_of(const std::string& file) {
 
 }  // namespace
 
+int dimension_of_mesh_file(const std::string& file) {
+  try {
+    return dimension_of_msh(bytes_of(file));
+  } catch (const InputError&) {
+    return 2;
+  }
+}
+
 RawMesh read_msh(const std::string& file, const Origin& origin, std::vector<std::string>* notes) {
   try {
     const std::string bytes = bytes_of(file);

@@ -22,4 +22,7 @@ namespace sprekk {
 /// in space). `notes` receives what the user of the file may not expect.
 RawMesh read_msh(const std::string& file, const Origin& origin = {}, std::vector<std::string>* notes = nullptr);
 
+/// 3 for a mesh file of volumes, else 2, also for a file that cannot be read.
+int dimension_of_mesh_file(const std::string& file);
+
 }  // namespace sprekk

@@ -350,7 +350,7 @@ void note_times(Scene& scene) {
 }  // namespace
 
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name) {
-  require_dimension(whole);
+  require_dimension(whole, folder);
   data_forms()["run"] = read_run_datum;
   Scene scene;
   scene.whole = whole;

@@ -236,8 +236,9 @@ TEST(UnusualValues, AreNotFoundInTheScenesOfThisProject) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(SPREKK_SOURCE_DIR) / "configs")) {
     if (entry.path().extension() != ".yaml" || entry.path().parent_path().filename() == "studies") continue;
     const Node whole = load_scene({entry.path().string()}, {});
-    if (dimension_of(whole) != dimension) continue;  // flow_in_space_test.py runs those
-    const Scene scene = read_scene(whole, entry.path().parent_path().string(), "scene");
+    const std::string folder = entry.path().parent_path().string();
+    if (dimension_of(whole, folder) != dimension) continue;  // flow_in_space_test.py runs those
+    const Scene scene = read_scene(whole, folder, "scene");
     ++scenes;
     Notes found;
     note_unusual_values(properties_of(scene), found);

@@ -40,8 +40,7 @@ class Grid:
 
     def centres_and_sizes(self):
         """Centres of gravity (m, 3), and the volumes of cells, their areas, or the lengths of lines."""
-        parts, cell = self.simplices()
-        corners = self.points[parts]
+        corners, cell = self.simplices()
         edges = corners[:, 1:] - corners[:, :1]
         # The determinant of Gram's matrix is the square of the measure of a simplex times its dimension's factorial.
         grams = np.einsum("nik,njk->nij", edges, edges)
@@ -53,17 +52,27 @@ class Grid:
         return centres, sizes
 
     def simplices(self):
-        """Lines, triangles or tetrahedra that make up the cells, and the cell of each."""
-        divided = {3: [(0, 1)], 5: [(0, 1, 2)], 9: [(0, 1, 2), (0, 2, 3)], 10: [(0, 1, 2, 3)],
-                   12: [(0, 1, 3, 7), (0, 1, 7, 5), (0, 5, 7, 4), (1, 2, 3, 7), (1, 2, 7, 6), (1, 6, 7, 5)],  # of hexahedra
-                   13: [(0, 1, 2, 5), (0, 1, 5, 4), (0, 4, 5, 3)]}  # of wedges
-        parts, cells = [], []
+        """The corners (k, d + 1, 3) of lines, triangles or tetrahedra that make up the cells, and the cell of each. A quadrilateral
+        that bounds a body is taken for the four triangles between its edges and the mean of its nodes, as the program does."""
+        divided = {3: [(0, 1)], 5: [(0, 1, 2)], 9: [(0, 1, 2), (0, 2, 3)], 10: [(0, 1, 2, 3)]}
+        faces_of = {12: [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],  # hexahedra
+                    13: [(0, 1, 2), (3, 4, 5), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]}  # wedges
+        parts, cells = [np.zeros((0, 2, 3))] if len(self.types) == 0 else [], []
         for shape in np.unique(self.types):
             of_shape = np.flatnonzero(self.types == shape)
-            for corners in divided[shape]:
-                parts.append(self.cells[of_shape][:, list(corners)])
-                cells.append(of_shape)
-        return (np.concatenate(parts), np.concatenate(cells)) if parts else (np.zeros((0, 2), int), np.zeros(0, int))
+            nodes = self.points[self.cells[of_shape]]
+            if shape in divided:
+                found = [nodes[:, list(corners)] for corners in divided[shape]]
+            else:
+                middle = nodes[:, sorted({k for face in faces_of[shape] for k in face})].mean(axis=1)
+                found = []
+                for face in map(list, faces_of[shape]):
+                    ends = [nodes[:, face].mean(axis=1)] if len(face) == 4 else []
+                    edges = zip(face, face[1:] + face[:1]) if len(face) == 4 else [face]
+                    found += [np.stack([middle, *ends, *(nodes[:, k] for k in edge)], axis=1) for edge in edges]
+            parts += found
+            cells += [of_shape] * len(found)
+        return np.concatenate(parts), np.concatenate([np.zeros(0, int), *cells])
 
 
 def read_vtu(path):
