@@ -110,8 +110,8 @@ class Rock : public Component,
   void apply_boundary();
   /// Tractions, and what is left on the walls beside them, Pa, (normal, tangential) of each fracture cell.
   Vector wall_load() const { return wall_traction_->now() + wall_remainder_->now(); }
-  /// The traction of the initial stress of the cell on the given side (0 or 1) of a face, on the normal of the face,
-  /// The initial stress of a cell, Pa; where rock is taken away, the part that still acts.
+  /// Pa, of the initial stress of the cell on a side (0 or 1) of a face, on the normal of the face; where rock is taken
+  /// away, the part that still acts.
   Point initial_traction(int face, int side) const;
   /// The load on a face from different initial stresses of the two regions at it, N/m; zero if they are in equilibrium.
   Point initial_load(int face) const;

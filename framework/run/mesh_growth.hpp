@@ -1,4 +1,5 @@
-// Changes the mesh between two attempts at a step when fractures have grown.
+// Every step of a run is attempted here: by the model alone where nothing grows (always so in space), else with the
+// growth of fractures, which the mesh follows.
 #pragma once
 
 #include <functional>

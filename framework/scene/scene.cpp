@@ -276,7 +276,6 @@ void note_unused_materials(Scene& scene, const std::set<std::string>& used) {
                       entry.origin.text() + ": no component of this scene uses " + quoted(entry.key));
 }
 
-/// Notes times without effect.
 /// The times of the rows of a table that depends on time (s), in order; none for another one.
 std::vector<double> times_of_table(const Node& node, const std::string& folder) {
   const Node* const of = node.find("of");
@@ -320,6 +319,7 @@ void note_tables(const Node& node, Scene& scene) {
           "time, at which steps end");
 }
 
+/// Notes times without effect.
 void note_times(Scene& scene) {
   const TimeOptions& time = scene.time;
   const auto note = [&](const char* section, const std::string& key, const std::string& text) {
@@ -351,7 +351,7 @@ void note_times(Scene& scene) {
 
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name) {
   require_dimension(whole, folder);
-  data_forms()["run"] = read_run_datum;
+  data_forms()["run"] = read_run_datum;  // {run: …}, which the config cannot read: it knows no results
   Scene scene;
   scene.whole = whole;
   scene.folder = folder;

@@ -1,4 +1,5 @@
-// How a time step is taken: with one stage (backward Euler) or with two.
+// How a time step is taken: with one stage (backward Euler) or with two. Each part writes one stage; SubcycleStep makes
+// two stages of a step.
 #pragma once
 
 #include <numbers>
