@@ -33,6 +33,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                              .doc = "Fluid stored, injected, and flowed out through the outer boundary",
                                              .accepted_with = pressure_.name(),
                                              .is_amount = true})),
+      kind_of_fluxes_(fluxes),
       is_limited_(fluxes == Fluxes::limited) {
   if (mesh_.wall_count() > 0)
     wall_flux_ =

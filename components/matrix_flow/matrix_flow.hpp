@@ -98,7 +98,7 @@ class MatrixFlow : public Component,
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
   /// Whether fluxes are linear in the pressures, or contain FluxOperators::limited.
-  enum class Fluxes { linear, limited };
+  enum class Fluxes { linear, two_point, limited };
   MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize,
              Unknowns unknowns = Unknowns::on_cells, Fluxes fluxes = Fluxes::linear);
   ~MatrixFlow() override;
@@ -268,6 +268,7 @@ class MatrixFlow : public Component,
   std::vector<Tensor> mobility_;               ///< m^2/(Pa s), one a cell
   std::vector<Tensor> mobility_of_operators_;  ///< of operators_; only if properties change, in one process
   std::uint64_t mobility_version_ = 0;
+  const Fluxes kind_of_fluxes_;
   const bool is_limited_;
   bool is_sealed_ = false;  ///< the mobility is zero: no flux exists, and none is discretized
 

@@ -43,6 +43,26 @@ std::string fracture_at(const Mesh& mesh, const Point& at) {
   return "";
 }
 
+/// Where, why, and what to do; {} is a number of places.
+const char* where_inexact(MatrixFlow::Fluxes kind) {
+  switch (kind) {
+    case MatrixFlow::Fluxes::two_point:
+      return "through {} faces two-point fluxes are not exact for linear pressures (permeability and faces are not "
+             "orthogonal there, and the error does not vanish with the size of cells); take matrix_flow/mpfa";
+    case MatrixFlow::Fluxes::limited:
+      return "through {} faces fluxes, or at walls pressures, are not exact for linear pressures (a corner of the "
+             "rock, "
+             "or rock that is too anisotropic for the cells there, leaves no neighbours in the direction of the flux); "
+             "use smaller cells there";
+    case MatrixFlow::Fluxes::linear:
+      break;
+  }
+  return dimension == 2 ? "around {} nodes fluxes are not exact for linear pressures (the rock is too anisotropic for "
+                          "the quadrilaterals there; exact fluxes would gain energy); use triangles"
+                        : "around {} nodes fluxes are not exact for linear pressures (the rock is too anisotropic for "
+                          "the cells there; exact fluxes would gain energy); use tetrahedra, or matrix_flow/rt0";
+}
+
 }  // namespace
 
 void MatrixFlow::note_input(Notes& notes) const {
@@ -98,24 +118,14 @@ void MatrixFlow::note_fluxes(Notes& notes, const StepTime& step) const {
   for (int f = 0; f < mesh_.face_count(); ++f)
     if (mesh_.cell_rank[mesh_.face_cells[f][0]] == parallel::rank()) own += operators_.blended_nodes.coeff(f, f);
   const double blended = std::round(parallel::sum(own));
-  if (blended > 0 && is_limited_)
+  if (blended > 0)
     notes.add(name() + ": fluxes that are not exact for linear pressures",
-              fmt::format("{}: through {} faces fluxes, or at walls pressures, are not exact for linear pressures (a "
-                          "corner of the rock, or rock that is too anisotropic for the cells there, leaves no "
-                          "neighbours in the direction of the flux); use smaller cells there",
-                          name(), blended),
-              blended);
-  if (blended > 0 && !is_limited_)
-    notes.add(
-        name() + ": fluxes that are not exact for linear pressures",
-        fmt::format("{}: around {} nodes fluxes are not exact for linear pressures (the rock is too anisotropic for "
-                    "the quadrilaterals there; exact fluxes would gain energy); use triangles",
-                    name(), blended),
-        blended);
+              name() + ": " + fmt::format(fmt::runtime(where_inexact(kind_of_fluxes_)), blended), blended);
   if (buoyancy_) return;  // fluid of another weight than around it needs no higher potential to move
-  const std::string remedy = is_limited_ ? "smaller cells"
-                                         : "smaller cells, or matrix_flow/ntpfa, which keeps bounds at the cost of "
-                                           "several factorizations a step";
+  const std::string remedy = is_limited_ || dimension == 3
+                                 ? "smaller cells"
+                                 : "smaller cells, or matrix_flow/ntpfa, which keeps bounds at the cost of "
+                                   "several factorizations a step";
   const std::string cause = is_limited_
                                 ? "walls of fractures and faces without neighbours in the direction of the flux "
                                   "are exempt from its bounds"

@@ -76,7 +76,8 @@ void MatrixFlow::check_sides() const {
                    is_in_cell(mesh_.face_cells[f][0]);
     if (!is_reached)
       throw InputError(condition.origin, "the condition on side '" + side + "' has no effect",
-                       "none of 'regions' reaches this side", "remove it, or name the region there");
+                       options_.regions.empty() ? "its parts cover it" : "none of 'regions' reaches this side",
+                       options_.regions.empty() ? "remove it" : "remove it, or name the region there");
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "framework/config/data_reader.hpp"
 #include "framework/config/expression.hpp"
@@ -128,6 +129,7 @@ TensorData read_principal(const Node& node, const DataRequest& request) {
   std::vector<Data> parts;
   for (const std::string& key : keys) {
     const Node& value = required_entry(node, key, request);
+    angle_about.range = key == "dip" ? between(0, std::numbers::pi / 2) : Range{};  // steeper ones lean the other way
     const DataRequest of_angle{request.name + "." + key, angle_about, request.context};
     parts.push_back(read_data(value, parts.size() < 2 ? request : of_angle));
   }

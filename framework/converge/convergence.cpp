@@ -121,10 +121,10 @@ fs::path Convergence::write_study(const std::vector<std::pair<std::string, Facto
       "# Written by sprekk converge; sprekk sweep runs it, too.\nname: " + yaml_quoted(name_) + "\nscene: [";
   for (std::size_t i = 0; i < options_.scene_files.size(); ++i)
     text += (i > 0 ? ", " : "") + yaml_quoted(fs::absolute(options_.scene_files[i]).string());
-  text += "]\nset:\n  output.fields: false\n";
+  text += "]\nset:\n  - output.fields: false\n";
   for (const std::string& setting : options_.settings) {
     const std::size_t equals = setting.find('=');
-    text += "  " + yaml_quoted(setting.substr(0, equals)) + ": " + setting.substr(equals + 1) + "\n";
+    text += "  - " + yaml_quoted(setting.substr(0, equals)) + ": " + setting.substr(equals + 1) + "\n";
   }
   text += "runs:\n";
   for (const auto& [name, factors] : runs) {

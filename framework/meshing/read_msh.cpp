@@ -216,7 +216,9 @@ class MshReader {
       } else if (outer == 0) {
         add_fracture(group);
       } else {
-        throw InputError(what + " lies partly inside and partly on the boundary (it is neither a side nor a fracture)");
+        throw InputError(what +
+                         " lies partly inside and partly on the boundary (it is neither a side nor a fracture) make "
+                         "two groups of it");
       }
     }
     notes_ = require_conforming(mesh_, faces, has_side);

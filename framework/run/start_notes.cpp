@@ -66,7 +66,7 @@ void note_pockets(const Mesh& mesh, Notes& notes) {
                         others(small.size() - 1, "pockets have few")));
 }
 
-/// Notes regions without a cell, because later ones cover them: their values have no effect.
+/// Notes regions without a cell: their values have no effect.
 void note_empty_regions(const Mesh& mesh, Notes& notes) {
   std::vector<bool> has_cell(mesh.region_names.size(), false);
   for (const int region : mesh.cell_region) has_cell[region] = true;
@@ -76,8 +76,9 @@ void note_empty_regions(const Mesh& mesh, Notes& notes) {
   if (empty.empty()) return;
   notes.add(
       "region without cells",
-      fmt::format("no cell belongs to {}: what is given there has no effect (later regions cover earlier ones) give "
-                  "the smaller region after the larger one",
+      fmt::format("no cell belongs to {}: what is given there has no effect (it lies outside of the box or "
+                  "between the centres of cells, or later regions cover it) move it, use smaller cells, or give the "
+                  "smaller region after the larger one",
                   listed(empty)));
 }
 

@@ -11,6 +11,7 @@
 #include "framework/field/weights_in_cell.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/medium.hpp"
+#include "framework/mesh/search/distances.hpp"
 #include "framework/mesh/search/point_location.hpp"
 
 namespace sprekk {
@@ -106,12 +107,10 @@ void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
     });
     if (best == none)
       throw InputError(options.origin, "probe '" + name_ + "' finds no fracture", "there is none of this name");
-    const double away = (mesh.fracture_cells[best].center - *options.at).norm();
+    const double away = distance_to_fracture_cell(mesh, best, *options.at);
     if (away > mesh.fracture_cells[best].size())
       throw InputError(options.origin, "probe '" + name_ + "' lies away from the fractures",
-                       "the nearest fracture cell is " + fmt::format("{:.3g} m", away) + " away and only " +
-                           fmt::format("{:.3g} m", mesh.fracture_cells[best].size()) + " long",
-                       "choose a point on a fracture");
+                       fmt::format("the nearest one is {:.3g} m away", away), "choose a point on a fracture");
     if (is_a_choice_)
       weights_ = {{best, 1.0}};
     else

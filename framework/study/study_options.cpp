@@ -9,10 +9,12 @@ namespace {
 
 /// "time.step: 1 h" of a map; maps as values stay maps, which are merged into the scene.
 std::vector<Setting> read_settings(const Node& node, const std::string& what) {
-  if (!node.is_map() && !node.is_null())
+  std::vector<Setting> settings;
+  for (const Node& item : node.items)  // one after the other, as --set takes them
+    for (Setting& setting : read_settings(item, "an item of " + what)) settings.push_back(std::move(setting));
+  if (!node.is_map() && !node.is_null() && !node.is_list())
     throw InputError(node.origin, what + " is not a map", "it gives values by their path in the scene",
                      "write '{time.step: 1 h}'");
-  std::vector<Setting> settings;
   for (const Node::Entry& entry : node.entries)
     settings.push_back({entry.key, entry.value.text(), entry.origin, entry.value.origin});
   return settings;
@@ -93,7 +95,8 @@ Spec StudyOptions::spec() {
   spec.texts("scene", scene,
              {.doc = "The scene, or several files that are merged, relative to the study's file.", .required = true});
   spec.custom("set", [this](const Node& node) { set = read_settings(node, "'set'"); },
-              {.doc = "Values of the scene for all runs, by path: {time.end: 30 h}."});
+              {.doc = "Values of the scene for all runs, by path: {time.end: 30 h}; or a list of these, set one after "
+                      "the other."});
   spec.custom("grid",
               [this](const Node& node) {
                 if (!node.is_map() && !node.is_null())

@@ -30,9 +30,8 @@ FractureFlow::Spot FractureFlow::spot(int cell, const Point& at) const {
 }
 
 Point FractureFlow::point_at(int cell, const Point& at) const {
-  const Spot spot = this->spot(cell, at);
-  const Point& centre = mesh_.fracture_cells[cell].center;
-  return centre + spot.to_end * (mesh_.ridges[spot.end].center - centre);
+  const FractureCell& home = mesh_.fracture_cells[cell];
+  return at - home.normal.dot(at - home.center) * home.normal;
 }
 
 /// The conductances from the centres of the cells that meet at an end of a cell to this end.

@@ -9,6 +9,7 @@
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/mesh/search/distances.hpp"
 #include "framework/mesh/search/point_location.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -24,13 +25,11 @@ void FractureFlow::check_names() const {
       throw InputError(where.origin, "there is no flow at this place", "its fracture is not one of 'fractures'",
                        "name the fracture there, or choose another place");
     if (!where.at) return;
-    const FractureCell& cell = mesh_.fracture_cells[cells_of(where).front()];
-    const double away = (cell.center - *where.at).norm();
-    if (away > cell.size())
+    const int cell = cells_of(where).front();
+    const double away = distance_to_fracture_cell(mesh_, cell, *where.at);
+    if (away > mesh_.fracture_cells[cell].size())
       throw InputError(where.origin, "there is no fracture at this place",
-                       "the nearest cell is " + fmt::format("{:.3g} m", away) + " away and only " +
-                           fmt::format("{:.3g} m", cell.size()) + " long",
-                       "choose a point on a fracture");
+                       fmt::format("the nearest one is {:.3g} m away", away), "choose a point on a fracture");
   };
   for (const auto& [name, injection] : options_.injections) check(injection.where);
   std::vector<const std::string*> prescribed_by(mesh_.fracture_cell_count(), nullptr);
@@ -63,13 +62,14 @@ void FractureFlow::check_points_apart() const {
     if (!given.where.at) continue;
     const int cell = cells_of(given.where).front();
     const auto [end, to_end] = spot(cell, *given.where.at);
-    if (to_end < at_centre) continue;
-    const Point& position = mesh_.ridges[end].center;
+    if (dimension == 2 && to_end < at_centre) continue;
+    const Point& position = dimension == 2 ? mesh_.ridges[end].center : *given.where.at;
     for (const Taken& other : taken)
       if ((other.end - position).norm() < at_centre * mesh_.fracture_cells[cell].size())
         throw InputError(given.where.origin, "'" + name + "' prescribes a pressure where there is one",
-                         "'" + *other.name +
-                             "' gives a point one that lies between the same centres of cells, around " +
+                         "'" + *other.name + "' gives " +
+                             (dimension == 2 ? "a point one that lies between the same centres of cells, around "
+                                             : "one to the same point, ") +
                              to_text(position),
                          "use smaller cells there, or remove one of the two");
     taken.push_back({&name, position});

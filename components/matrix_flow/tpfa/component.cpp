@@ -16,7 +16,8 @@ struct TpfaOptions : Options {
 
 class Tpfa : public MatrixFlow {
  public:
-  Tpfa(const ComponentContext& context, const TpfaOptions& options) : MatrixFlow(context, options, discretize_tpfa) {}
+  Tpfa(const ComponentContext& context, const TpfaOptions& options)
+      : MatrixFlow(context, options, discretize_tpfa, Unknowns::on_cells, Fluxes::two_point) {}
 };
 
 const RegisterComponent<Tpfa, TpfaOptions> registration("matrix_flow/tpfa");

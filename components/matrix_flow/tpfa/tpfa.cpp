@@ -18,12 +18,20 @@ double half_transmissibility(const Mesh& mesh, const Tensor& mobility, int cell,
   return mesh.face_measure[face] * normal.dot(mobility * normal) / distance;
 }
 
+/// Whether the flux of a linear pressure is exact between the centre of a cell and that of its face: K n is along them.
+bool is_consistent(const Mesh& mesh, const Tensor& mobility, int cell, int face) {
+  constexpr double round_off = 1e-6;  // of the distance
+  const Point& normal = mesh.face_normal[face];
+  const Point way = mesh.face_center[face] - mesh.cell_center[cell], conducted = mobility * normal;
+  return (way - normal.dot(way) / normal.dot(conducted) * conducted).norm() <= round_off * way.norm();
+}
+
 }  // namespace
 
 FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
                               const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes) {
   check_conditions(mesh, mobility, conditions, nodes);
-  std::vector<Triplet> flux_cell, flux_boundary, trace_cell, trace_boundary;
+  std::vector<Triplet> flux_cell, flux_boundary, trace_cell, trace_boundary, inexact;
   flux_cell.reserve(2 * mesh.face_count());
   for (int face = 0; face < mesh.face_count(); ++face) {
     const FaceNodes& ends = mesh.face_nodes[face];
@@ -32,6 +40,10 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     const double half = half_transmissibility(mesh, mobility[cell], cell, face);
     SPREKK_ASSERT(half > 0, face, cell, half);
     SPREKK_ASSERT((conditions[face] == FlowCondition::none) == (other != none), face, other);
+    if (conditions[face] != FlowCondition::flux &&
+        !(is_consistent(mesh, mobility[cell], cell, face) &&
+          (other == none || is_consistent(mesh, mobility[other], other, face))))
+      inexact.emplace_back(face, face, 1);
     switch (conditions[face]) {
       case FlowCondition::none: {
         const double other_half = half_transmissibility(mesh, mobility[other], other, face);
@@ -64,7 +76,7 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
           assemble(trace_cell, mesh.cell_count()),
           assemble(trace_boundary, mesh.face_count()),
           nothing(directions_of_faces),
-          nothing(1)};
+          assemble(inexact, mesh.face_count())};
 }
 
 }  // namespace sprekk::matrix_flow

@@ -158,7 +158,10 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
     if (has_box == has_file) {
       throw InputError(whole.origin,
                        has_box ? "the geometry has a box and a file" : "the geometry has neither box nor file",
-                       "it needs exactly one of them", "write box: {x: [0 m, 1 m], y: [0 m, 1 m]}");
+                       "it needs exactly one of them",
+                       has_box          ? "remove one of the two"
+                       : dimension == 2 ? "write box: {x: [0 m, 1 m], y: [0 m, 1 m]}"
+                                        : "write box: {x: [0 m, 1 m], y: [0 m, 1 m], z: [0 m, 1 m]}");
     }
     draw_sets(*sets, geometry);
     if constexpr (dimension == 3) complete_side_parts(geometry);

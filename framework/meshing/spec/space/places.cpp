@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "framework/config/data_reader.hpp"
 #include "framework/config/units.hpp"
@@ -89,11 +90,17 @@ void take_place(const FracturePlace& place, const Node& whole, FractureGeometry&
 
 namespace {
 
+/// A height z(x, y), and the plane that it is everywhere, if it is one.
+struct Surface {
+  Data height;
+  std::optional<HalfSpace> plane;
+};
+
 struct RegionKeys {
   std::array<std::vector<double>, dimension> box;
   bool has_box = false;
   std::optional<Point> point, normal;
-  std::vector<Data> between;
+  std::vector<Surface> between;
 };
 
 Spec region_box_spec(const std::shared_ptr<RegionKeys>& input) {
@@ -118,11 +125,21 @@ Spec region_box_spec(const std::shared_ptr<RegionKeys>& input) {
 
 double height_at(const Data& surface, double x, double y) { return surface.at({Point(x, y, 0), 0, 0}); }
 
-/// The plane that a surface z(x, y) is, if it is one.
+/// Whether a name stands alone in an expression.
+bool names(const std::string& expression, const std::string& name) {
+  return std::regex_search(expression, std::regex("(^|[^A-Za-z0-9_.])" + name + "($|[^A-Za-z0-9_])"));
+}
+
+/// Whether x and y stand in sums, products and quotients alone: what is a plane at some places then is one everywhere.
+bool is_rational(const std::string& expression) {
+  return !std::regex_search(expression, std::regex("[A-Za-z_][A-Za-z0-9_]* *\\(|[\\^<>=!&|?]"));
+}
+
+/// The plane that a rational height is, if it is one.
 std::optional<HalfSpace> plane_of(const Data& surface) {
   const double z = height_at(surface, 0, 0);
   const double slope_x = height_at(surface, 1, 0) - z, slope_y = height_at(surface, 0, 1) - z;
-  // Places of very different sizes, none of them likely to be where an expression changes.
+  // Places of very different sizes.
   constexpr double round_off = 1e-9;
   constexpr std::array places_x = {-1.17e5, -713.0, 0.37, 53.0, 2.31e4};
   constexpr std::array places_y = {-3.3e4, -91.0, 0.83, 417.0, 1.9e5};
@@ -136,20 +153,28 @@ std::optional<HalfSpace> plane_of(const Data& surface) {
   return HalfSpace{Point(0, 0, z), Point(-slope_x, -slope_y, 1)};
 }
 
-std::vector<Data> read_surfaces(const Node& node) {
+std::vector<Surface> read_surfaces(const Node& node) {
   if (!node.is_list() || node.items.size() != 2)
     throw InputError(node.origin, "'between' is no list of two heights", "a layer has a bottom and a top",
                      "write between: [-20 m, (5 + 0.1*x) m]");
-  std::vector<Data> surfaces;
+  std::vector<Surface> surfaces;
   for (const Node& item : node.items) {
     if (!item.is_scalar())
       throw InputError(item.origin, "a height in 'between' is no number and no expression of x and y",
                        "it is the height z of a surface", "write between: [-20 m, (5 + 0.1*x) m]");
-    surfaces.push_back(parse_data(item.scalar, "m", item.origin, "between"));
-    if (surfaces.back().depends_on_time())
-      throw InputError(item.origin, "a height in 'between' depends on time", "regions stay where they are",
+    const Data height = parse_data(item.scalar, "m", item.origin, "between");
+    if (height.depends_on_time() || names(item.scalar, "z"))
+      throw InputError(item.origin,
+                       std::string("a height in 'between' depends on ") + (height.depends_on_time() ? "time" : "z"),
+                       height.depends_on_time() ? "regions stay where they are" : "it is the z of a surface",
                        "write an expression of x and y");
+    const bool may_be_plane = height.is_constant() || is_rational(item.scalar);
+    surfaces.push_back({height, may_be_plane ? plane_of(height) : std::nullopt});
   }
+  const Data &bottom = surfaces[0].height, &top = surfaces[1].height;
+  if (bottom.is_constant() && top.is_constant() && height_at(bottom, 0, 0) >= height_at(top, 0, 0))
+    throw InputError(node.origin, "the bottom in 'between' is not below the top",
+                     "the first height is that of the bottom", "exchange them");
   return surfaces;
 }
 
@@ -167,7 +192,9 @@ Spec region_spec(const std::string& name, const Origin& origin, std::function<vo
       "between", [input](const Node& node) { input->between = read_surfaces(node); },
       {.unit = "m",
        .doc = "The heights z of the bottom and the top of a layer: numbers, or expressions of x and y. The mesh "
-              "conforms to those that are planes; cells belong to the region in which their centre lies."});
+              "conforms to those that are sums and products of x, y and numbers and make a plane; cells belong to the "
+              "region "
+              "in which their centre lies."});
   write_instead(spec.name(), "polygon", "write box: …, point: … and normal: …, or between: […] for a region in space");
   spec.check([input, name, origin, keep = std::move(keep)](const Node& whole) {
     RegionGeometry region{name, {}, origin};
@@ -181,13 +208,13 @@ Spec region_spec(const std::string& name, const Origin& origin, std::function<vo
       }
     if (input->point) region.half_spaces.push_back({*input->point, *input->normal});
     for (std::size_t i = 0; i < input->between.size(); ++i) {
-      const Data& surface = input->between[i];
-      auto plane = plane_of(surface);
-      if (plane && i == 1) plane->normal *= -1;
+      const auto& [height, plane] = input->between[i];
       if (plane)
-        region.half_spaces.push_back(*plane);
+        region.half_spaces.push_back({plane->point, (i == 0 ? 1 : -1) * plane->normal});
       else
-        (i == 0 ? region.bottom : region.top) = [surface](double x, double y) { return height_at(surface, x, y); };
+        (i == 0 ? region.bottom : region.top) = [height = height](double x, double y) {
+          return height_at(height, x, y);
+        };
     }
     if (region.half_spaces.empty() && !region.bottom && !region.top)
       throw InputError(whole.origin, "region '" + name + "' has no place", "it needs a box, a half-space or a layer",

@@ -66,6 +66,7 @@ void declare_side_parts(Spec& spec, Geometry& geometry) {
 
 void complete_side_parts(Geometry& geometry) {
   const Box& box = geometry.box;
+  if (!geometry.is_imported() && box.size().minCoeff() <= 0) return;  // validate_geometry says so
   for (SidePart& part : geometry.side_parts) {
     if (geometry.is_imported())
       throw InputError(part.origin, "'" + part.name + "' is a part of a side of a mesh file",
