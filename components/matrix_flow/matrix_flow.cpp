@@ -5,6 +5,7 @@
 
 #include "components/matrix_flow/buoyancy.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
@@ -24,15 +25,9 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                            .role = Role::unknown(BlockKind::bulk_elliptic),
                                            .unit = "Pa",
                                            .doc = "Fluid pressure of the matrix"})),
-      cumulative_(context.fields.add(mesh_, {.owner = context.name,
-                                             .name = "cumulative_balance",
-                                             .location = Location::cell,
-                                             .components = 3,
-                                             .role = Role::derived(),
-                                             .unit = volume_unit,
-                                             .doc = "Fluid stored, injected, and flowed out through the outer boundary",
-                                             .accepted_with = pressure_.name(),
-                                             .is_amount = true})),
+      cumulative_(context.fields.add(
+          mesh_, amounts_with(pressure_, context.name, "cumulative_balance", volume_unit,
+                              "Fluid stored, injected, and flowed out through the outer boundary", 3))),
       is_limited_(fluxes == Fluxes::limited) {
   if (mesh_.wall_count() > 0)
     wall_flux_ =
