@@ -196,10 +196,6 @@ class Biot : public Coupler,
   }
 
   /// The constant mode of the pressure loads the rock, and the grains store fluid.
-  void hold_constants(ConstantModes& modes) const override {
-    if (!decoupled_ && (!options_.one_way || has_grains_)) modes.hold(fluid_.pressure());
-  }
-
   void note_input(Notes& notes) const override {
     if (decoupled_ || !options_.one_way) return;
     notes.add(

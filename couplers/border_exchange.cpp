@@ -107,8 +107,6 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
     balances["fluid"].stored += passed_->sum_uncounted();
   }
 
-  void hold_constants(ConstantModes& modes) const override { modes.tie(*pressures_[0], *pressures_[1]); }
-
   void report(std::vector<Quantity>& quantities) const override {
     double rate = 0;
     for (const int face : faces_)

@@ -149,10 +149,6 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
     balances["fluid"].stored -= passed_.sum_uncounted();
   }
 
-  void hold_constants(ConstantModes& modes) const override {
-    if (fluid_) modes.tie(fluid_->pressure(), fracture_.pressure());
-  }
-
   void note_step(Notes& notes, const StepTime& step) const override {
     if (!fluid_ || step.start != start_time_) return;
     const Field *none_of = &fracture_.pressure(), *other = &fluid_->pressure();

@@ -1,7 +1,6 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "components/matrix_flow/buoyancy.hpp"
 #include "framework/assembly/balance_rows.hpp"
@@ -134,20 +133,6 @@ bool MatrixFlow::stores_nothing_somewhere() const {
   for (int c = 0; c < mesh_.cell_count(); ++c)
     if (is_in_cell(c) && storage_[c] == 0) return true;
   return false;
-}
-
-void MatrixFlow::hold_constants(ConstantModes& modes) const {
-  const bool has_pressure = std::any_of(options_.boundary.begin(), options_.boundary.end(),
-                                        [](const auto& side) { return side.second.pressure.has_value(); });
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (int c = 0; c < mesh_.cell_count(); ++c)
-    if (is_in_cell(c)) {
-      least = std::min(least, storage_[c]);
-      most = std::max(most, storage_[c]);
-    }
-  if (is_sealed_ ? least > 0 : has_pressure || most > 0) return;
-  modes.floats(pressure_, origin_, "nothing stores fluid and no side has a pressure: any constant may be added to it",
-               "give a storage, or the pressure of a side");
 }
 
 }  // namespace sprekk::matrix_flow

@@ -346,15 +346,6 @@ std::vector<double> FractureFlow::switch_times() const {
   return times;
 }
 
-void FractureFlow::hold_constants(ConstantModes& modes) const {
-  const bool has_open_end =
-      std::any_of(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; });
-  if (has_open_end || !options_.prescribed.empty() || compressibility_.values().maxCoeff() > 0) return;
-  modes.floats(pressure_, origin_,
-               "the fluid is incompressible and no pressure is given: any constant may be added to it",
-               "give a compressibility, or a pressure under 'prescribed' or 'boundary'");
-}
-
 void FractureFlow::report(std::vector<Quantity>& quantities) const {
   int floored = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
