@@ -35,19 +35,12 @@ void declare_compressibility(Spec& spec, Compressibility& compressibility, const
   usually(spec, "fluid_compressibility", usual_compressibility());
 }
 
-/// `matters`: with what the density matters.
-inline void declare_weight(Spec& spec, VectorData& gravity, double& density, const std::string& matters) {
+inline void declare_gravity(Spec& spec, VectorData& gravity) {
   spec.vector("gravity", gravity,
               {.unit = "m/s^2",
                .doc = "Acceleration of gravity.",
                .material = true,
                .fixed = "what is at rest under gravity is found once"});
-  spec.quantity("fluid_density", density,
-                {.unit = "kg/m^3",
-                 .range = non_negative(),
-                 .doc = "Density of the fluid; matters with " + matters + " only.",
-                 .material = true});
-  usually(spec, "fluid_density", usual_fluid_density());
 }
 
 }  // namespace sprekk

@@ -63,7 +63,13 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   usually(spec, "permeability", usual_permeability());
   declare_viscosity(spec, viscosity, "the paper's Eq. 6");
   declare_storage(spec);
-  declare_weight(spec, gravity, fluid_density, "gravity");
+  declare_gravity(spec, gravity);
+  spec.quantity("fluid_density", fluid_density,
+                {.unit = "kg/m^3",
+                 .range = non_negative(),
+                 .doc = "Density of the fluid; matters with gravity only.",
+                 .material = true});
+  usually(spec, "fluid_density", usual_fluid_density());
   spec.data("initial_pressure", initial_pressure,
             {.unit = "Pa", .doc = "Pressure at the start.", .fixed = "it is what the run starts from"});
   spec.data("source", source,

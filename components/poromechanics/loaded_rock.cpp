@@ -1,9 +1,7 @@
 #include "components/poromechanics/loaded_rock.hpp"
 
 #include "components/poromechanics/check_conditions.hpp"
-#include "components/poromechanics/notes.hpp"
 #include "components/poromechanics/principal_stress.hpp"
-#include "components/poromechanics/start_balance.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 
@@ -147,11 +145,5 @@ std::vector<double> LoadedRock::switch_times() const {
 }
 
 void LoadedRock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
-
-void LoadedRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
-
-void LoadedRock::note_start(Notes& notes) const {
-  note_start_imbalance(notes, options_, mesh_, name(), evaluated_for_.start);
-}
 
 }  // namespace sprekk::poromechanics

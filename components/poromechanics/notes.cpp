@@ -80,6 +80,12 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
              "' has no effect (that of an isotropic rock follows from young_modulus and poisson_ratio) remove it");
 }
 
+void LoadedRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
+
+void LoadedRock::note_start(Notes& notes) const {
+  note_start_imbalance(notes, options_, mesh_, name(), evaluated_for_.start);
+}
+
 void note_large_strain(Notes& notes, const std::string& name, const LargestStrain& largest, const Options& options,
                        const std::vector<Stiffness>& stiffness) {
   if (largest.strain <= options.large_strain) return;

@@ -199,7 +199,13 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
               "Pressures count from the same zero as everywhere in the scene. Without it the pressure has no bound, "
               "and a note tells of suction.",
        .source = "Elrod and Adams (1974); Peirce and Detournay (2008) for the lag of a fracture"});
-  declare_weight(spec, gravity, fluid_density, "gravity, and with the inertia of `law`,");
+  declare_gravity(spec, gravity);
+  spec.quantity("fluid_density", fluid_density,
+                {.unit = "kg/m^3",
+                 .range = non_negative(),
+                 .doc = "Density of the fluid; matters with gravity, and with the inertia of `law`, only.",
+                 .material = true});
+  usually(spec, "fluid_density", usual_fluid_density());
   spec.texts("fractures", fractures,
              {.doc = "Fractures in which there is a flow, `joints_*` for all that begin so; all by default. The others "
                      "are dry: nothing flows in them or "
