@@ -68,8 +68,6 @@ class Aperture : public Coupler, public FollowsMesh, public Stabilizes, public F
   }
 
   /// The pressure holds the fracture open, and what opens stores fluid.
-  void hold_constants(ConstantModes& modes) const override { modes.hold(fluid_.pressure()); }
-
   void assemble(Assembly& assembly, const StepTime&) const override {
     const Field& aperture = fluid_.aperture();
     if (!assembly.has_row(aperture)) return;

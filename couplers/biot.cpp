@@ -19,6 +19,7 @@
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/stabilizes.hpp"
+#include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
@@ -56,10 +57,11 @@ class Biot : public Coupler,
         rock_(context.the<PoroelasticRock>()),
         stress_(context.find<RockStress>()),
         state_(context.find<RockState>()),
-        counted_volume_(context.fields.add(
-            mesh_, counted_field(context, "counted_volume", "Change of volume that the fluid balance has counted"))),
-        stored_(context.fields.add(
-            mesh_, counted_field(context, "fluid_stored", "Fluid stored by the change of volume and of grains"))),
+        counted_volume_(
+            context.fields.add(mesh_, amounts_with(fluid_.pressure(), context.name, "counted_volume", volume_unit,
+                                                   "Change of volume that the fluid balance has counted"))),
+        stored_(context.fields.add(mesh_, amounts_with(fluid_.pressure(), context.name, "fluid_stored", volume_unit,
+                                                       "Fluid stored by the change of volume and of grains"))),
         origin_(context.origin),
         options_(options) {
     alpha_ = Property(options.biot_coefficient, cell_places(mesh_), context.start_time);
@@ -194,10 +196,6 @@ class Biot : public Coupler,
   }
 
   /// The constant mode of the pressure loads the rock, and the grains store fluid.
-  void hold_constants(ConstantModes& modes) const override {
-    if (!decoupled_ && (!options_.one_way || has_grains_)) modes.hold(fluid_.pressure());
-  }
-
   void note_input(Notes& notes) const override {
     if (decoupled_ || !options_.one_way) return;
     notes.add(
@@ -268,17 +266,6 @@ class Biot : public Coupler,
 
  private:
   static constexpr const char* undrained = "undrained";  ///< the name of a stabilization
-
-  FieldSpec counted_field(const CouplerContext& context, const char* name, const char* doc) const {
-    return {.owner = context.name,
-            .name = name,
-            .location = Location::cell,
-            .role = Role::derived(),
-            .unit = volume_unit,
-            .doc = doc,
-            .accepted_with = fluid_.pressure().name(),
-            .is_amount = true};
-  }
 
   /// The residuals of the fluid balances of cells whose volume is counted, right on cells of this process. Their sum is
   /// that without the fluxes between cells, whose round-off is no fluid.

@@ -1,9 +1,11 @@
 // border_exchange: fluid passes between two flows whose regions touch.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "components/capabilities/matrix_border.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
+#include "couplers/passed_amounts.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_state.hpp"
@@ -39,10 +41,8 @@ struct BorderExchangeOptions {
 /// Determines the flux q through every face of the border, from the first flow into the second (m/s):
 ///   r q = tr p_1 − tr p_2 ,
 /// with traces that are linear functions of the pressures of cells and of q. Its row is divided by r and the resistance
-/// of the rock on both sides, and so is well scaled. Elsewhere q = 0. The field belongs to the first flow.
-///
-/// `exchanged` has the amounts that the first flow has let into cells of the second, `counted` what the second has
-/// counted of them. So nothing is lost when the two are solved one after the other, or one of them in substeps.
+/// of the rock on both sides, and so is well scaled. Elsewhere q = 0. The field belongs to the first flow. What the
+/// first flow has let into cells of the second, the second counts when it is solved.
 class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, public RestsTogether {
  public:
   BorderExchange(const CouplerContext& context, const BorderExchangeOptions& options)
@@ -65,11 +65,8 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
                                         .unit = "m/s",
                                         .doc = "Flux across the border of the regions of both flows"});
     context.determine(*flux_);
-    exchanged_ = &context.fields.add(
-        mesh_, counted_field(context, "exchanged", *flux_,
-                             "Fluid that the second flow has received, with what was not counted before the step"));
-    counted_ = &context.fields.add(
-        mesh_, counted_field(context, "counted", *pressures_[1], "Of it, what the second flow has counted"));
+    passed_.emplace(context.fields, mesh_, context.name, Location::cell, *flux_, *pressures_[1], "second flow",
+                    "second flow");
     borders_[0]->open_border(*flux_, 1, at_border_);
     borders_[1]->open_border(*flux_, -1, at_border_);
 
@@ -87,28 +84,18 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
   void assemble(Assembly& assembly, const StepTime& step) const override {
     const Field& second = *pressures_[1];
     if (assembly.has_row(second)) {
-      Vector uncounted = assembly.has_row(*flux_) ? Vector(exchanged_->accepted() - counted_->accepted())
-                                                  : Vector(exchanged_->now() - counted_->accepted() - passing(step.dt));
+      const Vector uncounted = assembly.has_row(*flux_) ? passed_->uncounted_at_start()
+                                                        : Vector(passed_->uncounted_now() - passing(step.dt));
       BalanceRows(assembly, second).store(-uncounted);
     }
     if (assembly.has_row(*flux_)) assemble_flux(assembly);
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
-    const auto has = [&](const Field* field) { return std::find(solved.begin(), solved.end(), field) != solved.end(); };
-    if (has(flux_)) exchanged_->set(exchanged_->accepted() + passing(step.dt));
-    if (has(pressures_[1])) counted_->set(exchanged_->now());
+    passed_->after_solve(solved, [&] { return passing(step.dt); });
   }
-
-  /// Only the difference of both sums is kept, without the round-off of all that has ever passed.
-  void accepted() override {
-    exchanged_->set_both(exchanged_->accepted() - counted_->accepted());
-    counted_->set_both(Vector::Zero(counted_->size()));
-  }
-
-  void count_amounts_from_here(const SettledFields&) override {
-    for (Field* amount : {exchanged_, counted_}) amount->set_both(Vector::Zero(amount->size()));
-  }
+  void accepted() override { passed_->accepted(); }
+  void count_amounts_from_here(const SettledFields&) override { passed_->begin(); }
 
   std::vector<Dependence> dependences_at_rest() const override {
     const std::string &first = pressures_[0]->spec().owner, &second = pressures_[1]->spec().owner;
@@ -117,10 +104,8 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
 
   /// What the first flow has let out and the second has not counted yet is stored in neither.
   void balance(std::map<std::string, Balance>& balances) const override {
-    balances["fluid"].stored += sum_owned(mesh_, Location::cell, exchanged_->now() - counted_->now());
+    balances["fluid"].stored += passed_->sum_uncounted();
   }
-
-  void hold_constants(ConstantModes& modes) const override { modes.tie(*pressures_[0], *pressures_[1]); }
 
   void report(std::vector<Quantity>& quantities) const override {
     double rate = 0;
@@ -214,17 +199,6 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
     }
   }
 
-  static FieldSpec counted_field(const CouplerContext& context, const char* name, const Field& with, const char* doc) {
-    return {.owner = context.name,
-            .name = name,
-            .location = Location::cell,
-            .role = Role::derived(),
-            .unit = volume_unit,
-            .doc = doc,
-            .accepted_with = with.name(),
-            .is_amount = true};
-  }
-
   const Mesh& mesh_;
   std::array<const Field*, 2> pressures_ = {};
   std::array<MatrixBorder*, 2> borders_ = {};
@@ -233,7 +207,7 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
   std::vector<char> at_border_;  ///< one flag a face of the mesh
   Property resistance_;          ///< one for each of `faces_`
   Field* flux_ = nullptr;
-  Field *exchanged_ = nullptr, *counted_ = nullptr;  ///< one a cell, see the class, m^2
+  std::optional<PassedAmounts> passed_;  ///< into each cell of the second flow
   std::vector<double> switch_times_;
 };
 

@@ -86,10 +86,6 @@ class MatrixExchange : public Coupler {
     return {{first, second, because}, {second, first, because}};
   }
 
-  void hold_constants(ConstantModes& modes) const override {
-    if (!exchange_.values().cwiseProduct(in_both_).isZero(0)) modes.tie(*pressures_[0], *pressures_[1]);
-  }
-
   /// Flows in one rock between which nothing passes.
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     std::vector<std::pair<std::string, MatrixFluid*>> flows;

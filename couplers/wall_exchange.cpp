@@ -8,6 +8,7 @@
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
+#include "couplers/passed_amounts.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_state.hpp"
@@ -35,10 +36,8 @@ struct WallExchangeOptions {
 /// by about kappa + 1/r, with r the resistance of the matrix in front of the wall (d tr p / d lambda), and so is well
 /// scaled from sealed to wide open walls. The exact divisor leaves a power of two as factor of tr p, so that the
 /// products with rows of tr p are only scaled when kappa changes (BulkSchurComplement). lambda leaves the fluid balance
-/// of the fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture.
-///
-/// `exchanged` has the amount that the matrix has received through each wall, `counted` the part of it that the
-/// fracture has counted. So nothing is lost when the two are solved one after the other, or one of them in substeps.
+/// of the fracture: Eq. 8 of the paper, with the sign of Eq. 9 changed to that of a flux out of the fracture. What the
+/// matrix has received through each wall, the fracture counts when it is solved.
 class WallExchange : public Coupler, public KeepsState, public CountsAmounts, public RestsTogether {
  public:
   WallExchange(const CouplerContext& context, const WallExchangeOptions&)
@@ -48,11 +47,8 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
         fluid_(context.find<MatrixFluid>()),
         fracture_(context.the<FractureFluid>()),
         start_time_(context.start_time),
-        exchanged_(context.fields.add(
-            mesh_, counted_field(context, "exchanged", walls_.wall_flux(),
-                                 "Fluid that the matrix has received, with what was not counted before the step"))),
-        counted_(context.fields.add(
-            mesh_, counted_field(context, "counted", fracture_.pressure(), "Of it, what the fracture has counted"))) {
+        passed_(context.fields, mesh_, context.name, Location::wall, walls_.wall_flux(), fracture_.pressure(), "matrix",
+                "fracture") {
     context.determine(walls_.wall_flux());
     if (fluid_ && walls_.is_permeable()) fracture_.accept_rock_fluid(*fluid_, walls_);
     std::vector<Triplet> entries, sums, counts;
@@ -89,9 +85,8 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
     const Field& flux = walls_.wall_flux();
     const Field& pressure = fracture_.pressure();
     if (assembly.has_row(pressure)) {
-      const Vector& received = assembly.has_row(flux) ? exchanged_.accepted() : exchanged_.now();
-      const Vector uncounted = of_both_walls_ * (received - counted_.accepted());
-      BalanceRows(assembly, pressure).store(uncounted);
+      BalanceRows(assembly, pressure)
+          .store(of_both_walls_ * (assembly.has_row(flux) ? passed_.uncounted_at_start() : passed_.uncounted_now()));
       if (assembly.has_row(flux)) assembly.linear(pressure, inflow_, flux, step.dt);
     }
     if (!assembly.has_row(flux)) return;
@@ -133,28 +128,15 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
-    const auto has = [&](const Field& field) {
-      return std::find(solved.begin(), solved.end(), &field) != solved.end();
-    };
-    if (has(walls_.wall_flux())) {
-      Vector exchanged = exchanged_.accepted();
+    passed_.after_solve(solved, [&] {
+      Vector passing(mesh_.wall_count());
       for (int w = 0; w < mesh_.wall_count(); ++w)
-        exchanged[w] += step.dt * mesh_.fracture_cells[w / 2].measure * walls_.wall_flux().now()[w];
-      exchanged_.set(std::move(exchanged));
-    }
-    if (has(fracture_.pressure())) counted_.set(exchanged_.now());
+        passing[w] = step.dt * mesh_.fracture_cells[w / 2].measure * walls_.wall_flux().now()[w];
+      return passing;
+    });
   }
-
-  /// Only the difference of both sums is kept: sums since the start would have the round-off of all fluid that has ever
-  /// passed, which may be any multiple of what passes now.
-  void accepted() override {
-    exchanged_.set_both(exchanged_.accepted() - counted_.accepted());
-    counted_.set_both(Vector::Zero(counted_.size()));
-  }
-
-  void count_amounts_from_here(const SettledFields&) override {
-    for (Field* amount : {&exchanged_, &counted_}) amount->set_both(Vector::Zero(amount->size()));
-  }
+  void accepted() override { passed_.accepted(); }
+  void count_amounts_from_here(const SettledFields&) override { passed_.begin(); }
 
   std::vector<Dependence> dependences_at_rest() const override {
     const std::string& matrix = walls_.wall_flux().spec().owner;
@@ -164,11 +146,7 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
 
   /// The amount that the matrix has received and the fracture has not counted yet is stored in both: it is subtracted.
   void balance(std::map<std::string, Balance>& balances) const override {
-    balances["fluid"].stored -= sum_owned(mesh_, Location::wall, exchanged_.now() - counted_.now());
-  }
-
-  void hold_constants(ConstantModes& modes) const override {
-    if (fluid_) modes.tie(fluid_->pressure(), fracture_.pressure());
+    balances["fluid"].stored -= passed_.sum_uncounted();
   }
 
   void note_step(Notes& notes, const StepTime& step) const override {
@@ -213,24 +191,12 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
     return mantissa == 0 ? 0 : std::ldexp(1.0, mantissa < std::numbers::sqrt2 / 2 ? exponent - 1 : exponent);
   }
 
-  static FieldSpec counted_field(const CouplerContext& context, const char* name, const Field& with, const char* doc) {
-    return {.owner = context.name,
-            .name = name,
-            .location = Location::wall,
-            .role = Role::derived(),
-            .unit = volume_unit,
-            .doc = doc,
-            .accepted_with = with.name(),
-            .is_amount = true};
-  }
-
   const Mesh& mesh_;
   MatrixWalls& walls_;
   MatrixFluid* fluid_;
   FractureFluid& fracture_;
   double start_time_;           ///< s
-  Field& exchanged_;            ///< through each wall since the start, m^2
-  Field& counted_;              ///< the same, as the fracture has counted it, m^2
+  PassedAmounts passed_;        ///< through each wall
   SparseMatrix to_walls_;       ///< walls × fracture cells
   Operator inflow_;             ///< fracture cells × walls: lambda times length
   SparseMatrix of_both_walls_;  ///< fracture cells × walls: ones

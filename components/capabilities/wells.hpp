@@ -48,8 +48,6 @@ class WellPressures {
   virtual void accept_surroundings(std::vector<AroundWell> around) = 0;
   /// What accept_surroundings was given; empty before that, and couplers are built in any order.
   virtual const std::vector<AroundWell>& surroundings() const = 0;
-  /// Whether the pressure of some well is given, whatever its rate.
-  virtual bool holds_pressure() const = 0;
   /// The pressure around the wells at the start, Pa, one a place, from which the pressure of wells begins. Throws
   /// InputError for limits that contradict it.
   virtual void begin_with(const Vector& around) = 0;

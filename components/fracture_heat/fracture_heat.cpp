@@ -6,6 +6,7 @@
 #include "components/capabilities/usual_ranges.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/field/counted_amounts.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/ridge_distance.hpp"
@@ -76,15 +77,8 @@ FractureHeat::FractureHeat(const ComponentContext& context, const Options& optio
                                               .role = Role::unknown(BlockKind::interface),
                                               .unit = "K",
                                               .doc = "Temperature in the fractures"})),
-      cumulative_(context.fields.add(mesh_, {.owner = context.name,
-                                             .name = "cumulative_heat",
-                                             .location = Location::fracture_cell,
-                                             .components = 2,
-                                             .role = Role::derived(),
-                                             .unit = energy_unit,
-                                             .doc = "Heat stored, and conducted out through ends on sides",
-                                             .accepted_with = temperature_.name(),
-                                             .is_amount = true})) {
+      cumulative_(context.fields.add(mesh_, amounts_with(temperature_, context.name, "cumulative_heat", energy_unit,
+                                                         "Heat stored, and conducted out through ends on sides", 2))) {
   if (mesh_.fracture_cell_count() == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");

@@ -1,10 +1,10 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "components/matrix_flow/buoyancy.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
@@ -24,15 +24,9 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
                                            .role = Role::unknown(BlockKind::bulk_elliptic),
                                            .unit = "Pa",
                                            .doc = "Fluid pressure of the matrix"})),
-      cumulative_(context.fields.add(mesh_, {.owner = context.name,
-                                             .name = "cumulative_balance",
-                                             .location = Location::cell,
-                                             .components = 3,
-                                             .role = Role::derived(),
-                                             .unit = volume_unit,
-                                             .doc = "Fluid stored, injected, and flowed out through the outer boundary",
-                                             .accepted_with = pressure_.name(),
-                                             .is_amount = true})),
+      cumulative_(context.fields.add(
+          mesh_, amounts_with(pressure_, context.name, "cumulative_balance", volume_unit,
+                              "Fluid stored, injected, and flowed out through the outer boundary", 3))),
       kind_of_fluxes_(fluxes),
       is_limited_(fluxes == Fluxes::limited) {
   if (mesh_.wall_count() > 0)
@@ -140,20 +134,6 @@ bool MatrixFlow::stores_nothing_somewhere() const {
   for (int c = 0; c < mesh_.cell_count(); ++c)
     if (is_in_cell(c) && storage_[c] == 0) return true;
   return false;
-}
-
-void MatrixFlow::hold_constants(ConstantModes& modes) const {
-  const bool has_pressure = std::any_of(options_.boundary.begin(), options_.boundary.end(),
-                                        [](const auto& side) { return side.second.pressure.has_value(); });
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (int c = 0; c < mesh_.cell_count(); ++c)
-    if (is_in_cell(c)) {
-      least = std::min(least, storage_[c]);
-      most = std::max(most, storage_[c]);
-    }
-  if (is_sealed_ ? least > 0 : has_pressure || most > 0) return;
-  modes.floats(pressure_, origin_, "nothing stores fluid and no side has a pressure: any constant may be added to it",
-               "give a storage, or the pressure of a side");
 }
 
 }  // namespace sprekk::matrix_flow

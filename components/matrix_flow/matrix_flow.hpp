@@ -124,7 +124,6 @@ class MatrixFlow : public Component,
   bool is_nonlinear_in_pieces() const override { return is_limited_ && !is_sealed_; }
   std::vector<double> switch_times() const override;
   bool stores_nothing_somewhere() const override;
-  void hold_constants(ConstantModes& modes) const override;
   /// The rates of wells, and the outflow through each side with a condition, at the end of the step.
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;

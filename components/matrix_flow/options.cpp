@@ -1,6 +1,6 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 
-#include "components/capabilities/usual_ranges.hpp"
+#include "components/capabilities/fluid_options.hpp"
 #include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::matrix_flow {
@@ -46,14 +46,7 @@ void Options::declare_storage(Spec& spec) {
       "porosity", porosity,
       {.range = between(0, 1), .doc = "Porosity.", .source = "the paper's Table 1", .material = true, .in_time = true});
   usually(spec, "porosity", usual_porosity());
-  spec.data("fluid_compressibility", fluid_compressibility,
-            {.unit = "1/Pa",
-             .range = between(0, 100),
-             .doc = "Compressibility of the fluid; at most that of a gas at 0.01 Pa.",
-             .source = "the paper's Table 1",
-             .material = true,
-             .in_time = true});
-  usually(spec, "fluid_compressibility", usual_compressibility());
+  declare_compressibility(spec, fluid_compressibility, "the paper's Table 1", false);
 }
 
 Spec Options::spec(const std::string& type, const std::string& doc) {
@@ -68,21 +61,9 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                .material = true,
                .in_time = true});
   usually(spec, "permeability", usual_permeability());
-  spec.data("viscosity", viscosity,
-            {.unit = "Pa*s",
-             .range = positive(),
-             .doc = "Viscosity of the fluid.",
-             .source = "the paper's Eq. 6",
-             .required = true,
-             .material = true,
-             .in_time = true});
-  usually(spec, "viscosity", usual_viscosity());
+  declare_viscosity(spec, viscosity, "the paper's Eq. 6");
   declare_storage(spec);
-  spec.vector("gravity", gravity,
-              {.unit = "m/s^2",
-               .doc = "Acceleration of gravity.",
-               .material = true,
-               .fixed = "what is at rest under gravity is found once"});
+  declare_gravity(spec, gravity);
   spec.quantity("fluid_density", fluid_density,
                 {.unit = "kg/m^3",
                  .range = non_negative(),

@@ -9,6 +9,7 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/discretization/changes_along_face.hpp"
+#include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
@@ -31,15 +32,9 @@ MatrixHeat::MatrixHeat(const ComponentContext& context, const Options& options, 
                                               .role = Role::unknown(BlockKind::bulk_elliptic),
                                               .unit = "K",
                                               .doc = "Temperature of the matrix"})),
-      cumulative_(context.fields.add(mesh_, {.owner = context.name,
-                                             .name = "cumulative_heat",
-                                             .location = Location::cell,
-                                             .components = 3,
-                                             .role = Role::derived(),
-                                             .unit = energy_unit,
-                                             .doc = "Heat stored, generated, and conducted out through the boundary",
-                                             .accepted_with = temperature_.name(),
-                                             .is_amount = true})) {
+      cumulative_(context.fields.add(
+          mesh_, amounts_with(temperature_, context.name, "cumulative_heat", energy_unit,
+                              "Heat stored, generated, and conducted out through the boundary", 3))) {
   if (mesh_.wall_count() > 0)
     wall_heat_flux_ = &context.fields.add(mesh_, {.owner = context.name,
                                                   .name = "wall_heat_flux",

@@ -80,9 +80,9 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
              "' has no effect (that of an isotropic rock follows from young_modulus and poisson_ratio) remove it");
 }
 
-void Rock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
+void LoadedRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
 
-void Rock::note_start(Notes& notes) const {
+void LoadedRock::note_start(Notes& notes) const {
   note_start_imbalance(notes, options_, mesh_, name(), evaluated_for_.start);
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/field/field.hpp"
@@ -13,41 +15,46 @@ namespace sprekk::poromechanics {
 /// A pressure p, Pa, that adds -alpha (p - p_0) I to the stress. One value a cell each.
 struct PoreLoad {
   const Field* pressure;
-  Vector alpha;             ///< Biot coefficients; zero in cells that are taken away
-  Vector reference;         ///< p_0, Pa
-  Vector given = {};        ///< Biot coefficients of all cells
-  bool is_settled = false;  ///< whether p_0 is that of a settled state, and not the initial one
+  Vector alpha;                     ///< Biot coefficients; zero in cells that are taken away
+  Vector reference;                 ///< p_0, Pa
+  Vector given = {};                ///< Biot coefficients of all cells
+  std::uint64_t alpha_version = 1;  ///< changes with alpha
+  bool is_settled = false;          ///< whether p_0 is that of a settled state, and not the initial one
 
+  /// Gives other Biot coefficients.
+  void change_alpha(Vector of_rock) {
+    alpha = std::move(of_rock);
+    ++alpha_version;
+  }
   /// alpha (p - p_0) with the present pressure, Pa.
   Vector stress() const { return alpha.cwiseProduct(pressure->now() - reference); }
 };
 
 /// The stress belongs to the pressures of a state that has been settled: to all where the displacement was, and to
 /// those that were where the rock was held.
-template <class Load>
-void count_loads_from_here(const SettledFields& settled, const Field& displacement, std::vector<Load>& loads) {
-  for (Load& load : loads) {
+inline void count_loads_from_here(const SettledFields& settled, const Field& displacement,
+                                  std::vector<PoreLoad>& loads) {
+  for (PoreLoad& load : loads) {
     if (!settled.contain(displacement) && !settled.contain(*load.pressure)) continue;
     load.reference = load.pressure->now();
     load.is_settled = true;
   }
 }
 
-template <class Load>
-bool has_settled_loads(const std::vector<Load>& loads) {
+inline bool has_settled_loads(const std::vector<PoreLoad>& loads) {
   return std::ranges::any_of(loads, &PoreLoad::is_settled);
 }
 
 /// References of settled states as named values of the component `name`, for checkpoints.
-template <class Load>
-void save_loads(const std::string& name, const std::vector<Load>& loads, std::map<std::string, Vector>& state) {
-  for (const Load& load : loads)
+inline void save_loads(const std::string& name, const std::vector<PoreLoad>& loads,
+                       std::map<std::string, Vector>& state) {
+  for (const PoreLoad& load : loads)
     if (load.is_settled) state[name + ".settled." + load.pressure->name()] = load.reference;
 }
 
-template <class Load>
-void restore_loads(const std::string& name, std::vector<Load>& loads, const std::map<std::string, Vector>& state) {
-  for (Load& load : loads)
+inline void restore_loads(const std::string& name, std::vector<PoreLoad>& loads,
+                          const std::map<std::string, Vector>& state) {
+  for (PoreLoad& load : loads)
     if (const auto kept = state.find(name + ".settled." + load.pressure->name()); kept != state.end()) {
       load.reference = kept->second;
       load.is_settled = true;

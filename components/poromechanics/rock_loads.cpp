@@ -31,25 +31,8 @@ bool Rock::may_have_initial_load(int face) const {
   return !initial_load(face).isZero(0) || excavation.is_excavated(one) != excavation.is_excavated(other);
 }
 
-void Rock::use_excavation() {
-  const Excavation& excavation = stiffness_.excavation();
-  if (excavation.version() == used_excavation_) return;
-  used_excavation_ = excavation.version();
-  for (Load& load : loads_) {
-    load.alpha = excavation.of_rock(load.given);
-    ++load.alpha_version;
-  }
-}
-
 void Rock::evaluate_data(const StepTime& step) {
-  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
-  if (data_evaluated_ && (same_step || !(stiffness_.changes() || options_.loads_depend_on_time()))) return;
-  data_evaluated_ = true;
-  evaluated_for_ = step;
-  boundary_applied_ = false;
-  stiffness_.evaluate(step);
-  use_excavation();
-
+  if (!evaluate(step)) return;
   boundary_values_ = Vector::Zero(dimension * mesh_.face_count());
   initial_forces_ = Vector::Zero(dimension * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
@@ -92,8 +75,8 @@ void Rock::evaluate_data(const StepTime& step) {
 }
 
 void Rock::apply_boundary() {
-  if (boundary_applied_) return;
-  boundary_applied_ = true;
+  if (loads_applied_) return;
+  loads_applied_ = true;
   SPREKK_ASSERT(is_finite(boundary_values_) && is_finite(initial_forces_) && is_finite(body_forces_));
   SPREKK_ASSERT(boundary_values_.size() == dimension * mesh_.face_count(), boundary_values_.size());
   force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), 2);
@@ -106,13 +89,11 @@ void Rock::apply_boundary() {
   if (wall_remainder_) values += wall_forces_ * wall_remainder_->now();
   volume_change_.constant = operators_.volume_boundary * values;
   if (wall_traction_) jump_.constant = wall_jump_ * (operators_.trace_boundary * values);
-  if (jumps_.size() > 0)
-    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-      if (is_owned(mesh_, Location::fracture_cell, i))
-        jump_.constant.segment<dimension>(dimension * i) += jumps_.segment<dimension>(dimension * i);
-  for (const Load& load : loads_) {
+  add_jumps(jump_.constant);
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    const PoreLoad& load = loads_[i];
     const Vector reference = load.alpha.cwiseProduct(load.reference);
-    force_constant_ -= load.force_on_cell.entries() * load.reference;
+    force_constant_ -= force_of_load_[i].on_cell.entries() * load.reference;
     volume_change_.constant -= operators_.volume_stress * reference;
     if (wall_traction_) jump_.constant -= wall_jump_ * (operators_.trace_stress * reference);
   }

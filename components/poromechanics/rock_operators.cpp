@@ -109,7 +109,7 @@ void Rock::use_operators() {
   discretized_stiffness_ = stiffness_.version();
   if (stiffness_.changes() && parallel::size() == 1) stiffness_of_operators_ = stiffness_.of_cells();
   ++discretizations_;
-  boundary_applied_ = false;
+  loads_applied_ = false;
   const int rank = parallel::rank();
   if (parallel::size() > 1) {
     // Rows of other ranks' cells are incomplete.
@@ -137,17 +137,19 @@ void Rock::use_operators() {
     jump_.terms = {{&displacement_, Operator(wall_jump_ * operators_.trace_displacement)},
                    {wall_traction_, Operator(wall_jump_ * operators_.trace_boundary * wall_forces_)}};
   }
-  for (Load& load : loads_) load.used_version = 0;
+  force_of_load_.clear();
   use_loads();
 }
 
 void Rock::use_loads() {
-  for (Load& load : loads_) {
-    if (load.used_version == load.alpha_version) continue;
-    load.used_version = load.alpha_version;
-    boundary_applied_ = false;
+  force_of_load_.resize(loads_.size());
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    const PoreLoad& load = loads_[i];
+    if (force_of_load_[i].used_version == load.alpha_version) continue;
+    force_of_load_[i].used_version = load.alpha_version;
+    loads_applied_ = false;
     const SparseMatrix force = cell_sums(mesh_, operators_.force_stress, dimension, parallel::rank());
-    load.force_on_cell = Operator(-force * load.alpha.asDiagonal());
+    force_of_load_[i].on_cell = Operator(-force * load.alpha.asDiagonal());
     put_term(volume_change_, load.pressure, Operator(operators_.volume_stress * load.alpha.asDiagonal()));
     if (wall_traction_)
       put_term(jump_, load.pressure, Operator(wall_jump_ * operators_.trace_stress * load.alpha.asDiagonal()));

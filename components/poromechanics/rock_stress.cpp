@@ -10,7 +10,7 @@ Vector Rock::face_forces() const {
   Vector values = boundary_values_;
   if (wall_traction_) values += wall_forces_ * wall_load();
   Vector forces = operators_.force_displacement * displacement_.now() + operators_.force_boundary * values;
-  for (const Load& load : loads_) forces += operators_.force_stress * load.stress();
+  for (const PoreLoad& load : loads_) forces += operators_.force_stress * load.stress();
   for (int f = 0; f < mesh_.face_count(); ++f)
     forces.segment<dimension>(dimension * f) += mesh_.face_measure[f] * initial_traction(f, 0);
   return forces;
@@ -20,21 +20,9 @@ Vector Rock::outer_displacement() const {
   Vector values = boundary_values_;
   if (wall_traction_) values += wall_forces_ * wall_load();
   Vector displacement = operators_.trace_displacement * displacement_.now() + operators_.trace_boundary * values;
-  for (const Load& load : loads_) displacement += operators_.trace_stress * load.stress();
+  for (const PoreLoad& load : loads_) displacement += operators_.trace_stress * load.stress();
   exchange(mesh_, Location::face, dimension, displacement);
   return displacement;
-}
-
-Vector Rock::pore_stress() const {
-  Vector stress = Vector::Zero(mesh_.cell_count());
-  for (const Load& load : loads_) stress -= load.stress();
-  return stress;
-}
-
-Vector Rock::pore_stress_by(const Field& pressure) const {
-  for (const Load& load : loads_)
-    if (load.pressure == &pressure) return -load.alpha;
-  return {};
 }
 
 Vector Rock::stress_of(const Vector& forces, const Vector& moments) const {
@@ -65,7 +53,5 @@ Vector Rock::mean_stress() const {
   exchange(mesh_, Location::cell, 3, stress);
   return stress;
 }
-
-void Rock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
 
 }  // namespace sprekk::poromechanics

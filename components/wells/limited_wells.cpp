@@ -116,8 +116,6 @@ void LimitedWells::evaluate_data(const StepTime& step) {
   for (int w = 0; w < count(); ++w) now_.push_back(control(w, step));
 }
 
-bool LimitedWells::holds_pressure() const { return std::ranges::any_of(now_, &Control::has_pressure); }
-
 void LimitedWells::begin_with(const Vector& around) {
   SPREKK_EXPECT(around.size() == static_cast<Eigen::Index>(places_.size()), around.size(), places_.size());
   for (std::size_t k = 0; k < places_.size(); ++k) {

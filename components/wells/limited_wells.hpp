@@ -61,7 +61,6 @@ class LimitedWells : public Component, public PiecewiseSmooth, public WellPressu
   bool is_to_inject(int well) const override { return now_[well].rate > 0; }
   void accept_surroundings(std::vector<AroundWell> around) override { surroundings_ = std::move(around); }
   const std::vector<AroundWell>& surroundings() const override { return surroundings_; }
-  bool holds_pressure() const override;
   void begin_with(const Vector& around) override;
   void scale(const Vector& resistance) override;
 

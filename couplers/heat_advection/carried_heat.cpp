@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "framework/config/data.hpp"
+#include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 
@@ -21,24 +22,11 @@ constexpr double noticeable_capacity = 1e-2;   // of that of a cell
 CarriedHeat::CarriedHeat(const CouplerContext& context, Field& field, Location place, const std::string& where,
                          double fluid_heat_capacity)
     : temperature(&field), location(place), mesh_(&context.mesh), fluid_heat_capacity_(fluid_heat_capacity) {
-  received = &context.fields.add(*mesh_, {.owner = context.name,
-                                          .name = "received_in_" + where,
-                                          .location = location,
-                                          .role = Role::derived(),
-                                          .unit = volume_unit,
-                                          .doc = "Fluid that has entered each cell, as its heat is counted",
-                                          .accepted_with = temperature->name(),
-                                          .is_amount = true});
-  cumulative = &context.fields.add(*mesh_, {.owner = context.name,
-                                            .name = "cumulative_in_" + where,
-                                            .location = location,
-                                            .components = 3,
-                                            .role = Role::derived(),
-                                            .unit = energy_unit,
-                                            .doc = "Heat of received fluid, and what fluid carried in from outside and "
-                                                   "out",
-                                            .accepted_with = temperature->name(),
-                                            .is_amount = true});
+  received = &context.fields.add(*mesh_, amounts_with(field, context.name, "received_in_" + where, volume_unit,
+                                                      "Fluid that has entered each cell, as its heat is counted"));
+  cumulative = &context.fields.add(
+      *mesh_, amounts_with(field, context.name, "cumulative_in_" + where, energy_unit,
+                           "Heat of received fluid, and what fluid carried in from outside and out", 3));
 }
 
 void CarriedHeat::check(const Vector& capacity, const std::string& coupler) const {

@@ -170,12 +170,6 @@ class WellExchange : public Coupler, public FollowsMesh {
                   std::abs(weight_[k]));
   }
 
-  void hold_constants(ConstantModes& modes) const override {
-    if (!wells_.holds_pressure()) return;
-    if (rock_ && into_rock_.entries().nonZeros() > 0) modes.hold(rock_->pressure());
-    if (fracture_ && into_fracture_.entries().nonZeros() > 0) modes.hold(fracture_->pressure());
-  }
-
  private:
   int count() const { return static_cast<int>(places_.size()); }
 

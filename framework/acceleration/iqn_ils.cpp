@@ -2,34 +2,26 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "framework/acceleration/quasi_newton.hpp"
 #include "framework/acceleration/registry.hpp"
-#include "framework/acceleration/secants.hpp"
 
 namespace sprekk {
 
 namespace {
 
-struct IqnIlsOptions {
-  int columns = 100, reuse = 0;
-  double first = 1;
-  SecantFilter filter;
+struct IqnIlsOptions : QuasiNewtonOptions {
+  int reuse = 0;
   Spec spec();
   std::unique_ptr<Accelerator> build() const;
 };
 
 /// x_{k+1} = G(x_k) − W c, with the c that makes |r_k − V c| least; V and W are differences of r = G(x) − x and of G(x)
 /// in this time step and in the last `reuse` (Degroote, Bathe and Vierendeels, Comput. Struct. 87 (2009) 793).
-class IqnIls : public Accelerator {
+class IqnIls : public QuasiNewton {
  public:
   explicit IqnIls(const IqnIlsOptions& options) : options_(options) {}
-  void begin(const Vector& scale) override {
-    scale_ = scale;
-    passes_.begin();
-  }
   Vector next(const Vector& x, const Vector& image) override;
-  void forget() override { passes_.begin(); }
   void accepted() override;
-  void rewound() override { passes_.begin(); }
   bool forget_steps() override {
     passes_.begin();
     const bool knew_some = !former_.empty();
@@ -41,8 +33,6 @@ class IqnIls : public Accelerator {
 
  private:
   IqnIlsOptions options_;
-  Vector scale_;
-  SecantsOfPasses passes_;
   std::deque<Secants> former_;  ///< of the last time steps, newest first; without scale
 };
 
@@ -57,11 +47,7 @@ Vector IqnIls::next(const Vector& x, const Vector& image) {
       all.of_image.push_back(step.of_image[j].cwiseQuotient(scale_));
     }
   }
-  if (static_cast<int>(all.of_residual.size()) > options_.columns) {
-    all.of_residual.resize(options_.columns);
-    all.of_image.resize(options_.columns);
-  }
-  const FilteredSecants secants = filtered(all, options_.filter);
+  const FilteredSecants secants = options_.chosen(std::move(all));
   if (secants.q.cols() == 0) return x + options_.first * residual;
   return image - secants.of_image * secants.weights(residual);
 }
@@ -108,10 +94,7 @@ Spec IqnIlsOptions::spec() {
   Spec spec("iqn_ils", "Interface quasi-Newton method: least squares over differences of passes.");
   spec.integer("reuse", reuse,
                {.range = between(0, 1000), .doc = "Earlier time steps whose differences are used as well."});
-  spec.integer("columns", columns, {.range = between(1, 10000), .doc = "Differences that are used at most."});
-  spec.quantity("first", first,
-                {.range = strictly_between(0, 2), .doc = "Relaxation of a pass that knows no differences yet."});
-  filter.add_to(spec);
+  add_to(spec, "Differences");
   return spec;
 }
 

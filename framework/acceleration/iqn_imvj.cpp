@@ -1,8 +1,8 @@
 // iqn_imvj: interface quasi-Newton with the inverse Jacobian from all time steps.
 #include <algorithm>
 
+#include "framework/acceleration/quasi_newton.hpp"
 #include "framework/acceleration/registry.hpp"
-#include "framework/acceleration/secants.hpp"
 #include "framework/dense/least_squares.hpp"
 #include "framework/dense/svd.hpp"
 
@@ -10,10 +10,8 @@ namespace sprekk {
 
 namespace {
 
-struct IqnImvjOptions {
-  int columns = 100, rank = 100;
-  double first = 1;
-  SecantFilter filter;
+struct IqnImvjOptions : QuasiNewtonOptions {
+  int rank = 100;
   Spec spec();
   std::unique_ptr<Accelerator> build() const;
 };
@@ -23,14 +21,12 @@ struct IqnImvjOptions {
 /// and Franz, Comput. Methods Appl. Mech. Engng 279 (2014) 113; Lindner, Mehl, Scheufele and Uekermann, Coupled
 /// Problems 2015). J is kept as a product A B of few columns and rows; the `rank` largest singular values are kept
 /// (restart by singular value decomposition; Scheufele and Mehl, SIAM J. Sci. Comput. 39 (2017) S404).
-class IqnImvj : public Accelerator {
+class IqnImvj : public QuasiNewton {
  public:
   explicit IqnImvj(const IqnImvjOptions& options) : options_(options) {}
   void begin(const Vector& scale) override;
   Vector next(const Vector& x, const Vector& image) override;
-  void forget() override { passes_.begin(); }
   void accepted() override;
-  void rewound() override { passes_.begin(); }
   bool forget_steps() override {
     passes_.begin();
     const bool knew_some = a_.cols() > 0;
@@ -42,35 +38,22 @@ class IqnImvj : public Accelerator {
   void restore(const std::map<std::string, Vector>& state) override;
 
  private:
-  FilteredSecants secants() const;
   Eigen::MatrixXd correction(const FilteredSecants& secants) const;  ///< W − J_old V
   void truncate();
 
   IqnImvjOptions options_;
-  Vector scale_;
-  SecantsOfPasses passes_;
   Eigen::MatrixXd a_, b_;                ///< J of the accepted time steps is A B; without scale
   Eigen::MatrixXd scaled_a_, scaled_b_;  ///< the same for values that are divided by the scale
 };
 
 void IqnImvj::begin(const Vector& scale) {
-  scale_ = scale;
-  passes_.begin();
+  QuasiNewton::begin(scale);
   if (a_.rows() != scale.size()) {
     a_.resize(scale.size(), 0);
     b_.resize(0, scale.size());
   }
   scaled_a_ = scale.cwiseInverse().asDiagonal() * a_;
   scaled_b_ = b_ * scale.asDiagonal();
-}
-
-FilteredSecants IqnImvj::secants() const {
-  Secants newest = passes_.secants();
-  if (static_cast<int>(newest.of_residual.size()) > options_.columns) {
-    newest.of_residual.resize(options_.columns);
-    newest.of_image.resize(options_.columns);
-  }
-  return filtered(newest, options_.filter);
 }
 
 Eigen::MatrixXd IqnImvj::correction(const FilteredSecants& secants) const {
@@ -80,7 +63,7 @@ Eigen::MatrixXd IqnImvj::correction(const FilteredSecants& secants) const {
 Vector IqnImvj::next(const Vector& x, const Vector& image) {
   const Vector residual = image - x;
   passes_.add(residual, image);
-  const FilteredSecants known = secants();
+  const FilteredSecants known = options_.chosen(passes_.secants());
   if (known.q.cols() == 0 && scaled_a_.cols() == 0) return x + options_.first * residual;
   Vector next = image - scaled_a_ * (scaled_b_ * residual);
   if (known.q.cols() > 0) next -= correction(known) * known.weights(residual);
@@ -88,7 +71,7 @@ Vector IqnImvj::next(const Vector& x, const Vector& image) {
 }
 
 void IqnImvj::accepted() {
-  const FilteredSecants known = secants();
+  const FilteredSecants known = options_.chosen(passes_.secants());
   passes_.begin();
   if (known.q.cols() == 0) return;
   const Eigen::MatrixXd more_a = scale_.asDiagonal() * correction(known);
@@ -133,11 +116,7 @@ void IqnImvj::restore(const std::map<std::string, Vector>& state) {
 Spec IqnImvjOptions::spec() {
   Spec spec("iqn_imvj", "Interface quasi-Newton method: a matrix that all time steps improve.");
   spec.integer("rank", rank, {.range = between(1, 10000), .doc = "Largest rank of the matrix that is kept."});
-  spec.integer("columns", columns,
-               {.range = between(1, 10000), .doc = "Differences of a time step that are used at most."});
-  spec.quantity("first", first,
-                {.range = strictly_between(0, 2), .doc = "Relaxation of a pass that knows nothing yet."});
-  filter.add_to(spec);
+  add_to(spec, "Differences of a time step");
   return spec;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "framework/assembly/floating_balances.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
@@ -191,8 +190,8 @@ int BlockSystem::unknown_with_sum(const Assembly& assembly, const Balances::Quan
   return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), row) - first_.begin()) - 1;
 }
 
-std::string BlockSystem::describe_floating(const Assembly& assembly) const {
-  const std::vector<FloatingBalances> all = floating_balances(assembly, owned_, first_);
+std::string BlockSystem::describe_floating(const Assembly& assembly, Floating told) const {
+  const std::vector<FloatingBalances> all = floating_balances(assembly, owned_, first_, told);
   if (all.empty()) return "";
   const FloatingBalances& one = all.front();
   const auto block = std::ranges::find_if(system_.blocks, [&](const UnknownBlock& other) {

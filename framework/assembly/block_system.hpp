@@ -7,6 +7,7 @@
 
 #include "framework/assembly/assembly.hpp"
 #include "framework/assembly/balance_sums.hpp"
+#include "framework/assembly/floating_balances.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/mesh/mesh.hpp"
 
@@ -36,7 +37,7 @@ class BlockSystem {
   /// The unknown in one of whose rows the sum of a quantity stands. Collective.
   int unknown_with_sum(const Assembly& assembly, const Balances::Quantity& quantity) const;
   /// "" or, where nothing holds some balances of an assembly, a sentence that says which. Collective.
-  std::string describe_floating(const Assembly& assembly) const;
+  std::string describe_floating(const Assembly& assembly, Floating told = Floating::somewhere) const;
   void use_sums(bool wanted) { sums_.are_used = wanted; }
   void use_coupled_sums(bool wanted);
   /// The sum over all processes of the residuals of balances, without the round-off of what rows exchange. Collective.

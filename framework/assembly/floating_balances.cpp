@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "framework/invariants.hpp"
+#include "framework/joined_sets.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -23,30 +23,13 @@ struct Sum {
   bool is_difference() const { return std::abs(value) <= cancels * size; }
 };
 
-/// Sets of numbers that are joined.
-class JoinedSets {
- public:
-  explicit JoinedSets(int count) : root_(count) { std::iota(root_.begin(), root_.end(), 0); }
-  int root(int i) {
-    while (root_[i] != i) i = root_[i] = root_[root_[i]];
-    return i;
-  }
-  /// The smaller root stays, so that all processes have the same roots.
-  void join(int i, int j) {
-    const auto [low, high] = std::minmax({root(i), root(j)});
-    root_[high] = low;
-  }
-  void join_with_other_processes() {
-    std::vector<int> pairs;
-    for (int i = 0; i < static_cast<int>(root_.size()); ++i)
-      if (root(i) != i) pairs.insert(pairs.end(), {i, root(i)});
-    pairs = parallel::gather(pairs);
-    for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) join(pairs[k], pairs[k + 1]);
-  }
-
- private:
-  std::vector<int> root_;
-};
+void join_with_other_processes(JoinedSets& sets, int count) {
+  std::vector<int> pairs;
+  for (int i = 0; i < count; ++i)
+    if (sets.root(i) != i) pairs.insert(pairs.end(), {i, sets.root(i)});
+  pairs = parallel::gather(pairs);
+  for (std::size_t k = 0; k + 1 < pairs.size(); k += 2) sets.join(pairs[k], pairs[k + 1]);
+}
 
 /// The rows and columns of one quantity in an assembly.
 class Potentials {
@@ -76,14 +59,14 @@ class Potentials {
     return !parallel::any(!all);
   }
 
-  std::vector<FloatingBalances> find(int number) {
+  std::vector<FloatingBalances> find(int number, Floating told) {
     const int count = size();
     JoinedSets sets(count);
     Vector holds = Vector::Zero(count);
     for (std::size_t u = 0; u < assembly_.unknowns().size(); ++u) take_rows(static_cast<int>(u), sets, holds);
     for (const Assembly::Fixed& fixed : assembly_.fixed())
       if (are_potentials_[fixed.unknown]) holds[first_[fixed.unknown] + fixed.row] = 1;
-    sets.join_with_other_processes();
+    join_with_other_processes(sets, count);
     parallel::sum(holds);
     std::vector<char> is_held(count, 0);
     for (int i = 0; i < count; ++i)
@@ -93,6 +76,10 @@ class Potentials {
       for (int i = first_[unknown]; i < first_[unknown] + assembly_.unknowns()[unknown]->size(); ++i)
         if (!is_held[sets.root(i)])
           ++found.try_emplace(sets.root(i), FloatingBalances{number, i, 0}).first->second.balances;
+    int held = 0;
+    for (const int unknown : quantity_.unknowns) held += assembly_.unknowns()[unknown]->size();
+    for (const auto& [root, set] : found) held -= set.balances;
+    if (told == Floating::everywhere && held > 0) return {};
     std::vector<FloatingBalances> floating;
     for (const auto& [root, set] : found) floating.push_back(set);
     return floating;
@@ -160,14 +147,14 @@ class Potentials {
 }  // namespace
 
 std::vector<FloatingBalances> floating_balances(const Assembly& assembly, const std::vector<std::vector<char>>& owned,
-                                                const std::vector<int>& first) {
+                                                const std::vector<int>& first, Floating told) {
   SPREKK_EXPECT(assembly.wants_derivatives());
   SPREKK_EXPECT(owned.size() == assembly.unknowns().size() && first.size() == owned.size(), owned.size(), first.size());
   std::vector<FloatingBalances> floating;
   int number = 0;
   for (const Balances::Quantity& quantity : assembly.balances().quantities()) {
     Potentials potentials(assembly, quantity, owned, first);
-    if (!potentials.all_store()) std::ranges::copy(potentials.find(number), std::back_inserter(floating));
+    if (!potentials.all_store()) std::ranges::copy(potentials.find(number, told), std::back_inserter(floating));
     ++number;
   }
   return floating;

@@ -14,6 +14,10 @@ struct FloatingBalances {
   int balances = 0;  ///< how many there are
 };
 
+/// Whether sets are told that float beside others that are held, or only those of a quantity all of whose balances
+/// float. At rest a set that floats beside others keeps its values.
+enum class Floating { somewhere, everywhere };
+
 /// All sets of balances whose potentials float in an assembly with derivatives. It follows from what parts have said of
 /// their balances (BalanceRows, Operator) and not from a factorization, so solvers and their tolerances have no say in
 /// it.
@@ -25,6 +29,6 @@ struct FloatingBalances {
 /// this process owns it. `first`: for every unknown, its first row and column among all. Collective; every process gets
 /// the same.
 std::vector<FloatingBalances> floating_balances(const Assembly& assembly, const std::vector<std::vector<char>>& owned,
-                                                const std::vector<int>& first);
+                                                const std::vector<int>& first, Floating told = Floating::somewhere);
 
 }  // namespace sprekk

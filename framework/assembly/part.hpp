@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "framework/assembly/assembly.hpp"
-#include "framework/assembly/constant_modes.hpp"
 #include "framework/assembly/notes.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/field/field_store.hpp"
@@ -77,8 +76,6 @@ class Part {
 
   /// Pairs of components of which the first cannot be in a solve without the second.
   virtual std::vector<Dependence> dependences() const;
-  /// Declares which unknowns float by a constant, and what holds or ties them.
-  virtual void hold_constants(ConstantModes&) const {}
   /// Times (s) that a step must end at, because data jump there.
   virtual std::vector<double> switch_times() const;
   /// Quantities for history.csv, and fields for pictures.

@@ -1,37 +1,28 @@
 // From a mesh back to the one that it was built from.
 #include <algorithm>
-#include <numeric>
 
+#include "framework/joined_sets.hpp"
 #include "framework/mesh/build_mesh.hpp"
 
 namespace sprekk {
 
 RawMesh to_raw_mesh(const Mesh& mesh, std::vector<int>* merged) {
   // The copies of a node are tied to each other across the fracture cells that end there.
-  std::vector<int> root(mesh.nodes.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int node) {
-    while (root[node] != node) node = root[node] = root[root[node]];
-    return node;
-  };
-  const auto tie = [&](int a, int b) {
-    a = find(a), b = find(b);
-    root[std::max(a, b)] = std::min(a, b);
-  };
+  JoinedSets copies(mesh.node_count());
   for (const FractureCell& cell : mesh.fracture_cells) {
     const FaceNodes &plus = mesh.face_nodes[cell.faces[0]], &minus = mesh.face_nodes[cell.faces[1]];
     for (const int node : plus)
-      tie(node, *std::ranges::find_if(minus, [&](int other) { return mesh.nodes[other] == mesh.nodes[node]; }));
+      copies.join(node, *std::ranges::find_if(minus, [&](int other) { return mesh.nodes[other] == mesh.nodes[node]; }));
   }
 
   RawMesh raw;
   std::vector<int> number(mesh.nodes.size());
   for (int node = 0; node < mesh.node_count(); ++node) {
-    if (find(node) == node) {
+    if (copies.root(node) == node) {
       number[node] = static_cast<int>(raw.nodes.size());
       raw.nodes.push_back(mesh.nodes[node]);
     } else {
-      number[node] = number[find(node)];  // the root has the smaller index
+      number[node] = number[copies.root(node)];  // the root has the smaller index
     }
   }
   const auto renumbered = [&](FaceNodes nodes) {

@@ -51,6 +51,7 @@ std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Restar
   if (restart) return std::make_unique<Model>(scene, restart->mesh(scene.mesh.division), std::move(log));
   auto model = std::make_unique<Model>(scene, std::move(log));
   take_start(*model);
+  model->require_held();
   return model;
 }
 

@@ -89,7 +89,6 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   count_from_here({});  // the initial values
   schedule_->check();
   check_stages();
-  check_constant_modes();
   const bool has_output_probes =
       std::ranges::any_of(scene_.output.probes, [&](const auto& probe) { return !fields_.has(probe.second.of); });
   const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();

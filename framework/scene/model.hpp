@@ -39,8 +39,7 @@ class Model {
 
   /// Evaluates the data of a step and updates all discretizations, as `attempt` does first. Throws DataError.
   void prepare(const StepTime& step);
-  /// Begins the first step, and throws InputError where the run would refuse its equations, because nothing holds some
-  /// of their balances. Only for a model that does not run: the step is not ended. Collective.
+  /// Prepares the first step, and throws InputError where nothing holds some balances of its equations. Collective.
   void require_held();
   /// Attempts one step from the accepted state: prepares it and runs the schedule. If the step converges, the
   /// current values are those at its end. The caller accepts or rewinds.
@@ -79,7 +78,6 @@ class Model {
   void check_determined() const;
   void check_stages() const;
   void check_data();
-  void check_constant_modes() const;
   /// Turns the status of a step that has lost an amount of a conserved quantity into "not converged".
   void refuse_losses(const std::map<std::string, Balance>& before, const StepTime& step, StepStatus& status) const;
   /// Turns the status of a step that a part finds too long (LimitsStep) into "not converged".

@@ -60,10 +60,4 @@ void Model::check_data() {
     for (Part* part : parts_) part->evaluate_data(at);
 }
 
-void Model::check_constant_modes() const {
-  ConstantModes modes;
-  for (const Part* part : parts_) part->hold_constants(modes);
-  modes.require_held();
-}
-
 }  // namespace sprekk

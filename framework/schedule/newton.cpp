@@ -12,7 +12,6 @@
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/residual_check.hpp"
-#include "framework/schedule/search_mode_guard.hpp"
 
 namespace sprekk {
 
@@ -218,91 +217,10 @@ void Newton::note_step(Notes& notes, const StepTime& step) const {
   if (passed_ && passed_in_.start >= step.start) passed_->part->note_passed(passed_->told, notes);
 }
 
-StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start) {
-  state_has_changed_ = false;
-  // If the system is singular, because nothing holds some unknown in the present discrete state, a further attempt
-  // starts from fields whose conditions are inactive (PiecewiseSmooth::deactivate_conditions).
-  int iterations = 0;
-  const auto attempt_also_without_conditions = [&](Until until) {
-    StepStatus tried = attempt(step, options_.undamped, until);
-    iterations += tried.iterations;
-    if (!tried.converged && was_singular_) {
-      set(start);
-      for (PiecewiseSmooth* part : pieces_) part->deactivate_conditions();
-      tried = attempt(step, options_.undamped, until);
-      iterations += tried.iterations;
-    }
-    tried.iterations = iterations;
-    return tried;
-  };
-  StepStatus status = attempt_also_without_conditions(Until::search);
-  if (status.converged) return status;
-  const bool is_nonlinear =
-      std::ranges::any_of(pieces_, [](const PiecewiseSmooth* part) { return part->is_nonlinear_in_pieces(); });
-  const SearchModeGuard guard(SearchMode::without_shortcuts, SearchMode::with_shortcuts, pieces_);
-  // Without shortcuts such parts come near the solution surely and slowly. From there their own derivatives are quick.
-  const auto finish_with_own_derivatives = [&] {
-    if (status.converged || !is_nonlinear || !is_used_up_) return;
-    const SearchModeGuard own(SearchMode::piecewise, SearchMode::without_shortcuts, pieces_);
-    StepStatus finished = attempt(step, options_.undamped);
-    finished.iterations += status.iterations;
-    status = finished;
-  };
-  if (was_left_) {
-    set(start);
-    status = attempt_also_without_conditions(Until::end);
-    finish_with_own_derivatives();
-  }
-  if (status.converged) return status;
-  if (status.iterations <= 1) return status;
-  if (options_.undamped > 0) {
-    set(start);
-    const int before = status.iterations;
-    status = attempt(step, 0);
-    status.iterations += before;
-    finish_with_own_derivatives();
-  }
-  if (status.converged || !(state_has_changed_ || is_nonlinear) || options_.pieces == 0) return status;
-  const bool is_used_up = is_used_up_;
-  const std::vector<Vector> tried = values();
-  constexpr double much_shorter = 1.0 / 2;
-  const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
-  if (has_failed && step.dt > much_shorter * last_failed_path_.dt) return status;
-  for (const SearchMode mode : {SearchMode::piecewise_linear, SearchMode::piecewise}) {
-    set(start);
-    StepStatus path = follow_path(step, mode);
-    status.iterations += path.iterations;
-    if (lost_ && mode == SearchMode::piecewise) {
-      status.reason = lost_->told;
-      status.lost_at = lost_->time;
-      status.is_hopeless = least_iterations_ == 0;  // in an iteration other unknowns are held
-      break;
-    }
-    // Iterates from the end of the path with the true coefficients, until balances hold.
-    if (path.converged) {
-      const std::vector<Vector> end = values();
-      path = attempt(step, options_.undamped);
-      status.iterations += path.iterations;
-      if (!path.converged && mode == SearchMode::piecewise_linear) {
-        const std::string reason = path.reason;
-        set(end);
-        path = release_coefficients(step, start);
-        path.reason = reason + "; then " + path.reason;
-        status.iterations += path.iterations;
-      }
-    }
-    if (path.converged) return {true, "", status.iterations};
-    status.reason += "; then " + path.reason;
-    if (is_path_stuck_) break;  // with other derivatives its pieces are the same
-  }
-  last_failed_path_ = step;
-  if (is_used_up) set(tried);
-  is_used_up_ = is_used_up;
-  return status;
-}
+bool Newton::may_take_coupled_sums() const { return system_.sums().are_used && !system_.sums().are_used_where_coupled; }
 
 bool Newton::take_coupled_sums(ResidualCheck& check) {
-  if (!system_.sums().are_used || system_.sums().are_used_where_coupled) return false;
+  if (!may_take_coupled_sums()) return false;
   system_.use_coupled_sums(true);
   const std::vector<char> seeks_balance = check.is_unbalanced;
   check = check_residual(*assembly_, system_, options_.residual);
@@ -310,90 +228,104 @@ bool Newton::take_coupled_sums(ResidualCheck& check) {
   return true;
 }
 
+/// What an attempt has seen so far.
+struct Newton::Seen {
+  bool seeks_balance = false;  ///< in an iterate all rows held, but the balances did not
+  bool has_factors = false;
+  double last_imbalance = std::numeric_limits<double>::infinity(), last_row_error = last_imbalance;
+  std::multiset<std::uint64_t> states;  ///< one for each time that a discrete state was entered
+  std::uint64_t last_state = 0;
+  bool is_cycling = false;
+
+  /// False for the first state, and for the one before.
+  bool take(std::uint64_t state) {
+    if (!states.empty() && state == last_state) return false;
+    const bool is_change = !states.empty();
+    // A cycle is a discrete state that is left and returns repeatedly. A state that stays is no cycle.
+    is_cycling = is_cycling || states.count(state) > 1;
+    states.insert(state);
+    last_state = state;
+    return is_change;
+  }
+};
+
+/// Whether the residual of an iterate is as small as it has to be, or can be.
+bool Newton::is_small(ResidualCheck& check, int iteration, Seen& seen) {
+  // As long as other equations do not hold, balances are not checked, and round-off of rows of the bulk needs no
+  // back-solve.
+  seen.seeks_balance = seen.seeks_balance || (check.rows_hold && !check.balances_hold);
+  if (!seen.seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
+  if (!check.rows_hold || check.converged || !seen.has_factors)
+    return check.converged && iteration >= least_iterations_;
+  // An imbalance that another iteration does not reduce is lost in the round-off of the matrix. Sums of balances may
+  // remove it; otherwise no smaller imbalance is possible. The same for the residual of a single row.
+  constexpr double hardly_better = 0.5;
+  const bool rows_stall = check.each_row_holds || check.row_error > hardly_better * seen.last_row_error;
+  seen.last_row_error = check.row_error;
+  if (check.balances_hold) return rows_stall;
+  const bool stalls = check.imbalance > hardly_better * seen.last_imbalance;
+  seen.last_imbalance = check.imbalance;
+  if (stalls && may_take_coupled_sums()) {
+    system_.use_coupled_sums(true);
+    return false;
+  }
+  return rows_stall && stalls;
+}
+
+/// Whether the next update would be small as well: the simplified one, which costs a back-solve.
+bool Newton::is_settled_solution(const StepTime& step, const ResidualCheck& check, int iteration, bool has_factors) {
+  if (!has_factors || std::ranges::all_of(is_settled(check), [](char settled) { return settled != 0; })) return true;
+  Vector update;
+  const LinearReport report = linear_->solve(right_hand_side(check), update);
+  const double size = report.solved ? relative_size(update, check) : std::numeric_limits<double>::infinity();
+  if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0, check.of_equations});
+  return size <= options_.update;
+}
+
+/// The next update, or why there is none.
+std::string Newton::find_update(ResidualCheck& check, Vector& update) {
+  LinearReport report = linear_->factor(system_.matrix(*assembly_));
+  if (!report.solved && take_coupled_sums(check)) report = linear_->factor(system_.matrix(*assembly_));
+  was_singular_ = !report.solved;
+  if (was_singular_) return "singular system: " + report.reason;
+  report = linear_->solve(right_hand_side(check), update);
+  if (!report.solved && take_coupled_sums(check) && linear_->factor(system_.matrix(*assembly_)).solved)
+    report = linear_->solve(right_hand_side(check), update);
+  return report.solved ? "" : "linear solver: " + report.reason;
+}
+
 StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
   was_singular_ = was_left_ = is_used_up_ = false;
-  std::multiset<std::uint64_t> seen_states;
-  std::uint64_t last_state = 0;
-  bool factored = false, cycling = false, seeks_balance = false;
-  double length = 1, last_imbalance = std::numeric_limits<double>::infinity(), last_row_error = last_imbalance;
+  Seen seen;
   ResidualCheck check = evaluate(step);
   recent_ = {check};
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1, check.of_equations});
   for (int iteration = 0;; ++iteration) {
-    if (!check.finite) return {false, "the residual of " + check.equation + " is not finite", iteration};
-    // As long as other equations do not hold, balances are not checked, and round-off of rows of the bulk needs no
-    // back-solve.
-    seeks_balance = seeks_balance || (check.rows_hold && !check.balances_hold);
-    if (!seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
-    bool holds = check.converged && iteration >= least_iterations_;
-    if (check.rows_hold && !check.converged && factored) {
-      // An imbalance that another iteration does not reduce is lost in the round-off of the matrix. Sums of balances
-      // may remove it; otherwise no smaller imbalance is possible. The same for the residual of a single row.
-      constexpr double hardly_better = 0.5;
-      holds = check.each_row_holds || check.row_error > hardly_better * last_row_error;
-      last_row_error = check.row_error;
-      if (!check.balances_hold) {
-        const bool stalls = check.imbalance > hardly_better * last_imbalance;
-        last_imbalance = check.imbalance;
-        if (stalls && system_.sums().are_used && !system_.sums().are_used_where_coupled) {
-          system_.use_coupled_sums(true);
-          holds = false;
-        }
-        holds = holds && stalls;
-      }
-    }
-    if (holds) {
-      const std::vector<char> settled = is_settled(check);
-      const bool is_exact = std::all_of(settled.begin(), settled.end(), [](char c) { return c; });
-      if (!factored || is_exact) return {true, "", iteration};
-      // The simplified update: the change by one more iteration, at the cost of a back-solve.
-      Vector update;
-      const LinearReport report = linear_->solve(right_hand_side(check), update);
-      const double size = report.solved ? relative_size(update, check) : std::numeric_limits<double>::infinity();
-      if (log_) log_({step, name_, iteration, check.largest, check.equation, size, 0, check.of_equations});
-      if (size <= options_.update) return {true, "", iteration};
-    }
+    const auto fails = [iteration](std::string reason) { return StepStatus{false, std::move(reason), iteration}; };
+    if (!check.finite) return fails("the residual of " + check.equation + " is not finite");
+    if (is_small(check, iteration, seen) && is_settled_solution(step, check, iteration, seen.has_factors))
+      return {true, "", iteration};
     is_used_up_ = iteration == options_.at_most;
     if (is_used_up_)
-      return {false,
-              fmt::format("no convergence in {} iterations (the residual of {} is {:.2g} of its terms)", iteration,
-                          check.equation, check.largest),
-              iteration};
-
-    if (iteration == 0)
-      if (const std::string floating = system_.describe_floating(*assembly_); !floating.empty()) {
-        was_singular_ = true;
-        StepStatus status{false, "singular system: " + floating, 0};
-        status.is_hopeless = true;
-        return status;
-      }
-    LinearReport factoring = linear_->factor(system_.matrix(*assembly_));
-    if (!factoring.solved && take_coupled_sums(check)) factoring = linear_->factor(system_.matrix(*assembly_));
-    if (!factoring.solved) {
+      return fails(fmt::format("no convergence in {} iterations (the residual of {} is {:.2g} of its terms)", iteration,
+                               check.equation, check.largest));
+    if (const std::string floating = iteration == 0 ? system_.describe_floating(*assembly_) : ""; !floating.empty()) {
       was_singular_ = true;
-      return {false, "singular system: " + factoring.reason, iteration};
+      StepStatus status = fails("singular system: " + floating);
+      status.is_hopeless = true;
+      return status;
     }
-    factored = true;
     Vector update;
-    LinearReport report = linear_->solve(right_hand_side(check), update);
-    if (!report.solved && take_coupled_sums(check) && linear_->factor(system_.matrix(*assembly_)).solved)
-      report = linear_->solve(right_hand_side(check), update);
-    if (!report.solved) return {false, "linear solver: " + report.reason, iteration};
+    if (std::string failure = find_update(check, update); !failure.empty()) return fails(std::move(failure));
+    seen.has_factors = true;
     SPREKK_ASSERT(update.size() == system_.size(), update.size(), system_.size());
-
-    // A cycle is a discrete state that is left and returns repeatedly. A state that stays is no cycle.
-    const std::uint64_t state = discrete_state();
-    if (iteration == 0 || state != last_state) {
-      cycling = cycling || seen_states.count(state) > 1;
-      state_has_changed_ = state_has_changed_ || iteration > 0;
-      seen_states.insert(state);
-      last_state = state;
-    }
-    const bool searches = cycling || iteration > undamped || undamped == 0;
+    if (seen.take(discrete_state())) state_has_changed_ = true;
+    const bool searches = seen.is_cycling || iteration > undamped || undamped == 0;
     if (searches && until == Until::search && undamped > 0 && state_has_changed_) {
       was_left_ = true;
-      return {false, "the discrete state does not settle", iteration};
+      return fails("the discrete state does not settle");
     }
+    double length = 1;
     check = take_step(step, update, searches, length);
     recent_.push_back(check);
     constexpr std::size_t remembered = 3;  // states in the bound of a line search (Grippo and others 1986)

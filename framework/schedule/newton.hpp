@@ -100,16 +100,26 @@ class Newton {
   /// if they do not yet, and checks the residual anew. To be tried where the system is singular: rows in which
   /// round-off hides what determines the constant are so, too; the equations stay equivalent.
   bool take_coupled_sums(ResidualCheck& check);
+  bool may_take_coupled_sums() const;
   /// When an attempt ends. `end`: after all iterations. `search`: where a line search would begin, if the discrete
   /// state has changed by then.
   enum class Until { end, search };
-  /// All attempts, until one converges.
+  // newton_rungs.cpp: all attempts, until one converges, and what they consist of.
   StepStatus search(const StepTime& step, const std::vector<Vector>& start);
+  StepStatus attempt_also_without_conditions(const StepTime& step, const std::vector<Vector>& start, Until until);
+  StepStatus finish_with_own_derivatives(const StepTime& step, StepStatus status);
+  bool is_nonlinear_in_pieces() const;
+  bool may_follow_path(const StepTime& step) const;
+  StepStatus follow_paths(const StepTime& step, const std::vector<Vector>& start, StepStatus status);
   /// Looks for a solution with states that the present solution has left (keep_states.cpp). Returns the number of
   /// iterations.
   int keep_states(const StepTime& step, const std::vector<Vector>& start);
   /// Iterates, without a line search in the first `undamped` iterations.
   StepStatus attempt(const StepTime& step, int undamped, Until until = Until::end);
+  struct Seen;
+  bool is_small(ResidualCheck& check, int iteration, Seen& seen);
+  bool is_settled_solution(const StepTime& step, const ResidualCheck& check, int iteration, bool has_factors);
+  std::string find_update(ResidualCheck& check, Vector& update);
   /// The third attempt (path_search.cpp).
   StepStatus follow_path(const StepTime& step, SearchMode mode);
   /// Releases held coefficients in small shares from the end of a path, with an attempt at each share.

@@ -299,13 +299,15 @@ bool SolveStep::is_good_enough(const StepTime& step) {
 }
 
 void SolveStep::require_held(const StepTime& step) const {
-  // A stabilization may hold what nothing else does; whether it does is known in the step.
-  if (fields_.empty() || options_.stabilization != "none") return;
-  Assembly assembly(unknowns(), Assembly::Request::residual_and_derivatives);
+  if (fields_.empty()) return;
+  // A stabilization stands for unknowns that wait: what holds the balances may be among them.
+  std::vector<const Field*> solved = unknowns();
+  if (options_.stabilization != "none") std::ranges::copy(waiting(), std::back_inserter(solved));
+  Assembly assembly(solved, Assembly::Request::residual_and_derivatives);
   assemble_all(assembly, parts_, step);
-  const BlockSystem system(mesh_, unknowns());
-  if (check_residual(assembly, system, options_.newton.residual).converged) return;  // nothing is to be found
-  const std::string floating = system.describe_floating(assembly);
+  const BlockSystem system(mesh_, solved);
+  const bool rests = check_residual(assembly, system, options_.newton.residual).converged;
+  const std::string floating = system.describe_floating(assembly, rests ? Floating::everywhere : Floating::somewhere);
   if (!floating.empty()) throw InputError(options_.origin, floating);
 }
 

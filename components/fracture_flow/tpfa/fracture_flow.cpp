@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/field/counted_amounts.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/mesh_change.hpp"
@@ -34,15 +35,9 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                            .role = Role::input(BlockKind::interface),
                                            .unit = "m",
                                            .doc = "Aperture of the fractures (below the paper's Eq. 8)"})),
-      cumulative_(context.fields.add(mesh_, {.owner = context.name,
-                                             .name = "cumulative_balance",
-                                             .location = Location::fracture_cell,
-                                             .components = 3,
-                                             .role = Role::derived(),
-                                             .unit = volume_unit,
-                                             .doc = "Fluid stored, injected, and flowed out through the outer boundary",
-                                             .accepted_with = pressure_.name(),
-                                             .is_amount = true})),
+      cumulative_(context.fields.add(
+          mesh_, amounts_with(pressure_, context.name, "cumulative_balance", volume_unit,
+                              "Fluid stored, injected, and flowed out through the outer boundary", 3))),
       wet_(fracture_set(mesh_, options_.fractures, options_.fractures_origin)) {
   if (mesh_.fracture_cell_count() == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
@@ -349,15 +344,6 @@ std::vector<double> FractureFlow::switch_times() const {
   for (const auto& [name, given] : options_.prescribed) append(given.pressure);
   for (const auto& [side, pressure] : options_.boundary) append(pressure);
   return times;
-}
-
-void FractureFlow::hold_constants(ConstantModes& modes) const {
-  const bool has_open_end =
-      std::any_of(links_.begin(), links_.end(), [](const Link& link) { return link.second == none; });
-  if (has_open_end || !options_.prescribed.empty() || compressibility_.values().maxCoeff() > 0) return;
-  modes.floats(pressure_, origin_,
-               "the fluid is incompressible and no pressure is given: any constant may be added to it",
-               "give a compressibility, or a pressure under 'prescribed' or 'boundary'");
 }
 
 void FractureFlow::report(std::vector<Quantity>& quantities) const {

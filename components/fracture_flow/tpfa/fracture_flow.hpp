@@ -79,7 +79,6 @@ class FractureFlow : public Component,
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
   std::vector<double> switch_times() const override;
   bool stores_nothing_somewhere() const override { return compressibility_.values().minCoeff() == 0; }
-  void hold_constants(ConstantModes& modes) const override;
   void report(std::vector<Quantity>& quantities) const override;
   std::uint64_t discrete_state() const override;
   void note_input(Notes& notes) const override;

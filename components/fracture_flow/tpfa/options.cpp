@@ -1,6 +1,6 @@
 #include "components/fracture_flow/tpfa/options.hpp"
 
-#include "components/capabilities/usual_ranges.hpp"
+#include "components/capabilities/fluid_options.hpp"
 #include "framework/config/unknown_key.hpp"
 #include "framework/field/units_of_amounts.hpp"
 
@@ -55,24 +55,8 @@ Spec side_spec(EndCondition& end) {
 }  // namespace
 
 void Options::declare_fluid(Spec& spec) {
-  spec.data("viscosity", viscosity,
-            {.unit = "Pa*s",
-             .range = positive(),
-             .doc = "Viscosity of the fluid.",
-             .source = "the paper's Eq. 8",
-             .required = true,
-             .material = true,
-             .in_time = true});
-  usually(spec, "viscosity", usual_viscosity());
-  spec.data("fluid_compressibility", fluid_compressibility,
-            {.unit = "1/Pa",
-             .range = between(0, 100),
-             .doc = "Compressibility of the fluid; at most that of a gas at 0.01 Pa.",
-             .source = "c_p of the paper's Eq. 8",
-             .required = true,
-             .material = true,
-             .in_time = true});
-  usually(spec, "fluid_compressibility", usual_compressibility());
+  declare_viscosity(spec, viscosity, "the paper's Eq. 8");
+  declare_compressibility(spec, fluid_compressibility, "c_p of the paper's Eq. 8", true);
 }
 
 void Options::declare_grown(Spec& spec) {
@@ -215,11 +199,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
               "Pressures count from the same zero as everywhere in the scene. Without it the pressure has no bound, "
               "and a note tells of suction.",
        .source = "Elrod and Adams (1974); Peirce and Detournay (2008) for the lag of a fracture"});
-  spec.vector("gravity", gravity,
-              {.unit = "m/s^2",
-               .doc = "Acceleration of gravity.",
-               .material = true,
-               .fixed = "what is at rest under gravity is found once"});
+  declare_gravity(spec, gravity);
   spec.quantity("fluid_density", fluid_density,
                 {.unit = "kg/m^3",
                  .range = non_negative(),

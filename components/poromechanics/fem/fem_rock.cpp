@@ -6,11 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "components/poromechanics/check_conditions.hpp"
 #include "components/poromechanics/fem/volumetric_split.hpp"
 #include "components/poromechanics/notes.hpp"
-#include "components/poromechanics/principal_stress.hpp"
-#include "components/poromechanics/start_balance.hpp"
 #include "components/poromechanics/stress_without_displacement.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -32,20 +29,8 @@ std::vector<char> owned_values(const Mesh& mesh, Location location, int componen
 }  // namespace
 
 FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
-    : Component(context.name),
-      mesh_(context.mesh),
-      options_(options),
-      order_(options.order == "first" ? ElementOrder::first : ElementOrder::second),
-      origin_(context.origin),
-      displacement_(context.fields.add(mesh_, {.owner = context.name,
-                                               .name = "displacement",
-                                               .location = Location::node,
-                                               .components = dimension,
-                                               .role = Role::unknown(BlockKind::bulk_elastic),
-                                               .unit = "m",
-                                               .doc = "Displacement of the rock"})),
-      stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
-  check_conditions(options_, mesh_, context.origin);
+    : LoadedRock(context, options, Location::node),
+      order_(options.order == "first" ? ElementOrder::first : ElementOrder::second) {
   held_ = held_directions(options_, mesh_);
   if (order_ == ElementOrder::second)
     of_faces_ = &context.fields.add(mesh_, {.owner = context.name,
@@ -63,15 +48,7 @@ FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
                                               .unit = "Pa",
                                               .doc = "Part of the stress against a change of volume, compression "
                                                      "positive"});
-  if (mesh_.wall_count() > 0)
-    wall_traction_ =
-        &context.fields.add(mesh_, {.owner = context.name,
-                                    .name = "wall_traction",
-                                    .location = Location::fracture_cell,
-                                    .components = dimension,
-                                    .role = Role::input(BlockKind::interface),
-                                    .unit = "Pa",
-                                    .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
+  add_wall_traction(context.fields);
 }
 
 NeedsDirectSolver::Need FemRock::needs_direct_solver() const {
@@ -87,22 +64,6 @@ std::vector<Field*> FemRock::unknowns() const {
   if (of_faces_) fields.push_back(of_faces_);
   if (volumetric_) fields.push_back(volumetric_);
   return fields;
-}
-
-void FemRock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
-  SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.name(), pressure.size(), mesh_.cell_count());
-  SPREKK_EXPECT(alpha.size() == mesh_.cell_count() && reference.size() == mesh_.cell_count(), pressure.name());
-  loads_.push_back({&pressure, alpha, reference, alpha});
-}
-
-void FemRock::change_alpha(const Field& pressure, const Vector& alpha) {
-  SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
-  for (PoreLoad& load : loads_)
-    if (load.pressure == &pressure) {
-      load.given = alpha;
-      load.alpha = stiffness_.excavation().of_rock(alpha);
-    }
-  ++alpha_version_;
 }
 
 void FemRock::discretize() {
@@ -129,17 +90,7 @@ void FemRock::discretize() {
 }
 
 void FemRock::evaluate_data(const StepTime& step) {
-  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
-  if (data_evaluated_ && (same_step || !(stiffness_.changes() || options_.loads_depend_on_time()))) return;
-  data_evaluated_ = true;
-  evaluated_for_ = step;
-  is_given_used_ = false;
-  stiffness_.evaluate(step);
-  if (const std::uint64_t version = stiffness_.excavation().version(); version != used_excavation_) {
-    used_excavation_ = version;
-    for (PoreLoad& load : loads_) load.alpha = stiffness_.excavation().of_rock(load.given);
-    ++alpha_version_;
-  }
+  if (!evaluate(step)) return;
   discretize();  // the body force acts on interior functions, too
   given_ = given_loads(options_, mesh_, held_, operators_, stiffness_.excavation(),
                        settled_ ? &settled_->forces : nullptr, step);
@@ -178,9 +129,9 @@ std::vector<FemRock::Quantity*> FemRock::quantities() {
 }
 
 void FemRock::use_loads() {
-  if (used_alpha_ == alpha_version_) return;
-  used_alpha_ = alpha_version_;
-  is_given_used_ = false;
+  if (used_alpha_ == alpha_version()) return;
+  used_alpha_ = alpha_version();
+  loads_applied_ = false;
   for (Quantity* quantity : quantities()) {
     const std::size_t first = quantity->value.terms.size() - loads_.size();
     for (std::size_t i = 0; i < loads_.size(); ++i)
@@ -190,18 +141,15 @@ void FemRock::use_loads() {
 }
 
 void FemRock::use_given() {
-  if (is_given_used_) return;
-  is_given_used_ = true;
+  if (loads_applied_) return;
+  loads_applied_ = true;
   for (Quantity* quantity : quantities()) {
     const LinearInFem& operators = quantity->operators;
     quantity->value.constant = operators.of_force * given_.forces + operators.of_given * given_.displacements;
     for (const PoreLoad& load : loads_)
       quantity->value.constant -= operators.of_stress * load.alpha.cwiseProduct(load.reference);
   }
-  if (jumps_.size() == 0) return;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-    if (is_owned(mesh_, Location::fracture_cell, i))
-      jump_.value.constant.segment<dimension>(dimension * i) += jumps_.segment<dimension>(dimension * i);
+  add_jumps(jump_.value.constant);
 }
 
 void FemRock::require_countable() const {
@@ -211,44 +159,10 @@ void FemRock::require_countable() const {
                      "use 'order: second', or poromechanics/mpsa");
 }
 
-void FemRock::count_from_here(const SettledFields& settled) {
-  if (settled.fields.empty()) return;
-  if (settled.contain(displacement_)) count_from_equilibrium();
-  count_loads_from_here(settled, displacement_, loads_);
-  data_evaluated_ = false;
-  begin_step(StepTime(evaluated_for_));
-}
-
 void FemRock::count_from_equilibrium() {
-  SettledRock settled;
-  settled.forces = settled_forces(options_, mesh_, stiffness_.of_cells(), operators_, coefficients(), pore_stress());
-  settled.stress = mean_stress();
-  settled.displacements = given_.displacements;
-  if (wall_traction_) {
-    jumps_ = jump_.value.now();
-    exchange(mesh_, Location::fracture_cell, dimension, jumps_);
-  }
-  settled_ = std::move(settled);
+  keep_settled(settled_forces(options_, mesh_, stiffness_.of_cells(), operators_, coefficients(), pore_stress()),
+               given_.displacements);
   for (Field* field : unknowns()) field->set_both(Vector::Zero(field->size()));
-}
-
-void FemRock::count_jumps_from(const Vector& jumps) {
-  SPREKK_EXPECT(wall_traction_ && jumps.size() == wall_traction_->size(), jumps.size());
-  jumps_ = jumps;
-  is_given_used_ = false;
-}
-
-void FemRock::save(std::map<std::string, Vector>& state) const {
-  if (settled_) settled_->save(name(), state);
-  save_loads(name(), loads_, state);
-  if (jumps_.size() > 0) state[key_of_jumps(name())] = jumps_;
-}
-
-void FemRock::restore(const std::map<std::string, Vector>& state) {
-  settled_ = SettledRock::restored(name(), state);
-  restore_loads(name(), loads_, state);
-  if (const auto kept = state.find(key_of_jumps(name())); kept != state.end()) jumps_ = kept->second;
-  data_evaluated_ = false;
 }
 
 void FemRock::begin_step(const StepTime& step) {
@@ -340,45 +254,6 @@ Vector FemRock::outer_displacement() const {
                                               4 * share * (1 - share) * all.segment<dimension>(raw.of_face(f));
   }
   return outer;
-}
-
-Vector FemRock::pore_stress() const {
-  Vector stress = Vector::Zero(mesh_.cell_count());
-  for (const PoreLoad& load : loads_) stress -= load.stress();
-  return stress;
-}
-
-Vector FemRock::pore_stress_by(const Field& pressure) const {
-  for (const PoreLoad& load : loads_)
-    if (load.pressure == &pressure) return -load.alpha;
-  return {};
-}
-
-SymmetricTensor FemRock::initial_stress(int cell, const Point& x) const {
-  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
-  const double support = stiffness_.excavation().support(cell);
-  if (settled_) return support * settled_->stress.segment<symmetric_components>(symmetric_components * cell);
-  return support * options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
-}
-
-Point FemRock::body_force(int cell, const Point& x) const {
-  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
-  return stiffness_.excavation().support(cell) *
-         options_.body_force_in(evaluated_for_, {x, mesh_.cell_region[cell], 0});
-}
-
-void FemRock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
-
-std::vector<double> FemRock::switch_times() const {
-  std::vector<const Data*> data = stiffness_.data(), loads = options_.loads();
-  data.insert(data.end(), loads.begin(), loads.end());
-  return merged_switch_times(data);
-}
-
-void FemRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
-
-void FemRock::note_start(Notes& notes) const {
-  note_start_imbalance(notes, options_, mesh_, name(), evaluated_for_.start);
 }
 
 void FemRock::note_step(Notes& notes, const StepTime&) const {

@@ -10,6 +10,66 @@
 #include "framework/invariants.hpp"
 
 namespace sprekk::poromechanics {
+namespace {
+
+/// Displacements at the centres of other cells: as functions of q, and what they are, over their scale.
+struct Continuation {
+  Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor> of_q;
+  Eigen::MatrixXd values;
+};
+
+/// The q with known q = value; rows have length one. Prescribed displacements (`held`) hold. In the components of q
+/// that they leave free, forces determine q along the singular vectors, each to the degree that its singular value is
+/// large: two faces with nearly equal forces hardly determine the stress along them, and the error of the normal of a
+/// curved side is larger than that. The remaining components continue the displacement of the cells across to their
+/// centres, by least squares.
+Eigen::MatrixXd determine(const Eigen::Matrix4d& known, const Eigen::MatrixXd& value, const std::vector<int>& held,
+                          const std::vector<int>& forces, const Continuation& across, const MpsaLimits& limits) {
+  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(4, value.cols());
+  Eigen::MatrixXd free = Eigen::MatrixXd::Identity(4, 4);
+  if (!held.empty()) {
+    const Eigen::MatrixXd rows = known(held, Eigen::all);
+    const DenseSvd svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    q = svd.solve(Eigen::MatrixXd(value(held, Eigen::all)));
+    free = svd.matrixV().rightCols(forces.size()).eval();
+  }
+  if (forces.empty()) return q;
+  const Eigen::MatrixXd rows = known(forces, Eigen::all);
+  const DenseSvd svd(rows * free, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::MatrixXd along = svd.matrixU().transpose() * (value(forces, Eigen::all) - rows * q);
+  const Eigen::MatrixXd directions = free * svd.matrixV();
+  std::vector<int> open;
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(forces.size());
+  for (int i = 0; i < weight.size(); ++i) {
+    const double sine = svd.singularValues()[i];
+    const double part = std::clamp((sine - limits.vague) / (limits.certain - limits.vague), 0.0, 1.0);
+    if (part < 1) {
+      open.push_back(i);
+      weight[i] = std::sqrt(part / (1 - part));
+    } else {
+      q += directions.col(i) * along.row(i) / sine;
+    }
+  }
+  if (open.empty()) return q;
+  const auto targets = static_cast<int>(across.of_q.rows()), count = static_cast<int>(open.size());
+  const Eigen::MatrixXd opened = directions(Eigen::all, open);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(targets + count, count);
+  Eigen::MatrixXd target = Eigen::MatrixXd::Zero(targets + count, value.cols());
+  for (int row = 0; row < targets; ++row) {
+    const Eigen::RowVector4d reached = across.of_q.row(row);
+    matrix.row(row) = reached * opened;
+    target.row(row) = -reached * q;
+    target.row(row) += across.values.row(row);
+  }
+  for (int i = 0; i < count; ++i) {
+    matrix(targets + i, i) = weight[open[i]];
+    if (weight[open[i]] > 0)
+      target.row(targets + i) = weight[open[i]] / svd.singularValues()[open[i]] * along.row(open[i]);
+  }
+  return q + opened * LeastSquares(matrix).solve_columns(target);
+}
+
+}  // namespace
 
 void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
                                  const std::vector<Stiffness>& stiffness,
@@ -43,65 +103,25 @@ void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& regi
     value.row(i) /= norm;
   }
 
-  // Prescribed displacements hold. In the components of q that they leave free, forces determine q along the singular
-  // vectors, each to the degree that its singular value is large: two faces with nearly equal forces hardly determine
-  // the stress along them, and the error of the normal of a curved side is larger than that. The remaining components
-  // continue the displacement of the cells across to their centres, by least squares.
+  // Which of the equations are of prescribed displacements; the cells across, to whose centres displacements continue.
   std::vector<int> held, forces;
   for (int i = 0; i < 4; ++i) {
     const int c = row_of(i / 2, 0) == i ? 0 : 1;
     (conditions[region.faces[i / 2]][c] == MechanicalCondition::displacement ? held : forces).push_back(i);
   }
-  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(4, columns_);
-  Eigen::MatrixXd free = Eigen::MatrixXd::Identity(4, 4);
-  if (!held.empty()) {
-    const Eigen::MatrixXd rows = known(held, Eigen::all);
-    const DenseSvd svd(rows, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    q = svd.solve(Eigen::MatrixXd(value(held, Eigen::all)));
-    free = svd.matrixV().rightCols(forces.size()).eval();
-  }
-  if (!forces.empty()) {
-    const Eigen::MatrixXd rows = known(forces, Eigen::all);
-    const DenseSvd svd(rows * free, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Eigen::MatrixXd along = svd.matrixU().transpose() * (value(forces, Eigen::all) - rows * q);
-    const Eigen::MatrixXd directions = free * svd.matrixV();
-    std::vector<int> open;
-    Eigen::VectorXd weight = Eigen::VectorXd::Zero(forces.size());
-    for (int i = 0; i < weight.size(); ++i) {
-      const double sine = svd.singularValues()[i];
-      const double part = std::clamp((sine - limits_.vague) / (limits_.certain - limits_.vague), 0.0, 1.0);
-      if (part < 1) {
-        open.push_back(i);
-        weight[i] = std::sqrt(part / (1 - part));
-      } else {
-        q += directions.col(i) * along.row(i) / sine;
-      }
-    }
-    if (!open.empty()) {
-      const int count = static_cast<int>(open.size()), targets = 2 * (cells_ - 1);
-      const Eigen::MatrixXd opened = directions(Eigen::all, open);
-      Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(targets + count, count);
-      Eigen::MatrixXd target = Eigen::MatrixXd::Zero(targets + count, columns_);
-      int row = 0;
-      for (int other = 0; other < cells_; ++other) {
-        if (other == column(0)) continue;
-        const Point arm = mesh.cell_center[cells[other]] - mesh.cell_center[subcell.cell];
-        const double scale = root(3, 3) / arm.norm();
-        for (int c = 0; c < 2; ++c, ++row) {
-          const Eigen::RowVector4d reached = scale * (arm[0] * gradient.row(2 * c) + arm[1] * gradient.row(2 * c + 1));
-          matrix.row(row) = reached * opened;
-          target.row(row) = -reached * q;
-          target(row, 2 * other + c) += scale;
-          target(row, 2 * column(0) + c) -= scale;
-        }
-      }
-      for (int i = 0; i < count; ++i, ++row) {
-        matrix(row, i) = weight[open[i]];
-        if (weight[open[i]] > 0) target.row(row) = weight[open[i]] / svd.singularValues()[open[i]] * along.row(open[i]);
-      }
-      q += opened * LeastSquares(matrix).solve_columns(target);
+  const int targets = 2 * (cells_ - 1);
+  Continuation across{decltype(Continuation::of_q)(targets, 4), Eigen::MatrixXd::Zero(targets, columns_)};
+  for (int other = 0, row = 0; other < cells_; ++other) {
+    if (other == column(0)) continue;
+    const Point arm = mesh.cell_center[cells[other]] - mesh.cell_center[subcell.cell];
+    const double scale = root(3, 3) / arm.norm();
+    for (int c = 0; c < 2; ++c, ++row) {
+      across.of_q.row(row) = scale * (arm[0] * gradient.row(2 * c) + arm[1] * gradient.row(2 * c + 1));
+      across.values(row, 2 * other + c) = scale;
+      across.values(row, 2 * column(0) + c) = -scale;
     }
   }
+  const Eigen::MatrixXd q = determine(known, value, held, forces, across, limits_);
   system.rightCols(columns_) = of_cell + arms * gradient * q;
 }
 

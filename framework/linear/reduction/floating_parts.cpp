@@ -4,9 +4,9 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "framework/invariants.hpp"
+#include "framework/joined_sets.hpp"
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/rigid_rotations.hpp"
 
@@ -78,24 +78,19 @@ class Parts {
  private:
   /// Joins the entities that have entries in one row.
   void find(const std::vector<char>& is_balance) {
-    std::vector<int> parent(block_.entities);
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int entity) {
-      while (parent[entity] != entity) entity = parent[entity] = parent[parent[entity]];
-      return entity;
-    };
+    JoinedSets sets(block_.entities);
     for (int row = 0; row < a_.rows(); ++row) {
       if (!is_balance[row]) continue;
-      int joined = entity_of_[row] < 0 ? -1 : root(entity_of_[row]);
+      int joined = entity_of_[row];
       for (SparseMatrix::InnerIterator entry(a_, row); entry; ++entry) {
         const int entity = entry.value() == 0 ? -1 : entity_of_[entry.col()];
         if (entity < 0) continue;
-        if (joined < 0) joined = root(entity);
-        if (parent[entity] != joined) parent[root(entity)] = joined;
+        if (joined >= 0) sets.join(entity, joined);
+        joined = entity;
       }
     }
     for (int entity = 0; entity < block_.entities; ++entity) {
-      int& number = part_of_[root(entity)];
+      int& number = part_of_[sets.root(entity)];
       if (number < 0) {
         number = static_cast<int>(parts_.size());
         parts_.emplace_back();

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "framework/invariants.hpp"
+#include "framework/joined_sets.hpp"
 #include "framework/linear/expect_sound.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -21,24 +22,19 @@ std::vector<int> sets_of_blocks(const LinearSystem& system, int& sets) {
     std::fill_n(block_of.begin() + block.first, block.entities * block.components, b);
   }
   std::vector<char> is_joined(count * count, 0);
-  std::vector<int> root(count);
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int b) {
-    while (root[b] != b) b = root[b] = root[root[b]];
-    return b;
-  };
+  JoinedSets joined_blocks(count);
   for (int row = 0; row < a.rows(); ++row) {
     char* joined = is_joined.data() + block_of[row] * count;
     for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) joined[block_of[entry.col()]] = 1;
   }
   for (int b = 0; b < count; ++b)
     for (int other = 0; other < count; ++other)
-      if (is_joined[b * count + other]) root[find(b)] = find(other);
+      if (is_joined[b * count + other]) joined_blocks.join(b, other);
   std::vector<int> set(count, -1), number(count, -1);
   sets = 0;
   for (int b = 0; b < count; ++b) {
     if (system.blocks[b].entities == 0) continue;
-    int& mine = number[find(b)];
+    int& mine = number[joined_blocks.root(b)];
     if (mine < 0) mine = sets++;
     set[b] = mine;
   }

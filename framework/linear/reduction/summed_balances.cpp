@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "framework/invariants.hpp"
+#include "framework/joined_sets.hpp"
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/gather_entries.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -14,12 +14,17 @@
 namespace sprekk {
 namespace {
 
-/// The rows of local blocks, of all processes, at their places in the whole system.
-SparseMatrix local_rows(const LinearSystem& system) {
-  std::vector<char> is_local(system.local.cols(), 0);
-  for (const UnknownBlock& block : system.blocks)
+std::vector<char> rows_of_interfaces(const std::vector<UnknownBlock>& blocks, Eigen::Index size) {
+  std::vector<char> is_local(size, 0);
+  for (const UnknownBlock& block : blocks)
     if (block.kind == BlockKind::interface)
       std::fill_n(is_local.begin() + block.first, block.entities * block.components, 1);
+  return is_local;
+}
+
+/// The rows of local blocks, of all processes, at their places in the whole system.
+SparseMatrix local_rows(const LinearSystem& system) {
+  const std::vector<char> is_local = rows_of_interfaces(system.blocks, system.local.cols());
   SparseMatrix whole(system.local.cols(), system.local.cols());
   if (parallel::size() == 1) {
     int entries = 0;
@@ -119,19 +124,6 @@ std::vector<std::pair<int, double>> take_out_given_fluxes(const SparseMatrix& a,
   return added;
 }
 
-std::vector<char> rows_of_interfaces(const std::vector<UnknownBlock>& blocks, Eigen::Index size) {
-  std::vector<char> is_local(size, 0);
-  for (const UnknownBlock& block : blocks)
-    if (block.kind == BlockKind::interface)
-      std::fill_n(is_local.begin() + block.first, block.entities * block.components, 1);
-  return is_local;
-}
-
-int root_of(std::vector<int>& parent, int row) {
-  while (parent[row] != row) row = parent[row] = parent[parent[row]];
-  return row;
-}
-
 /// The sum of rows without the entries that cancel. An entry whose terms are all zero stays, so that the pattern does
 /// not depend on the values.
 std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows) {
@@ -181,17 +173,15 @@ std::vector<PossibleSum> possible_sums(const SparseMatrix& rows, const std::vect
         if (++column.count == 1) seen.push_back(static_cast<int>(entry.col()));
         (column.count == 1 ? column.first : column.second) = row;
       }
-    std::vector<int> parent(size);
-    std::iota(parent.begin(), parent.end(), 0);
+    JoinedSets joined(size);
     const auto joins = [&](int column) {
       return columns[column].count == 2 && (column < first || column >= first + size);
     };
     for (const int column : seen)
-      if (joins(column))
-        parent[root_of(parent, columns[column].second - first)] = root_of(parent, columns[column].first - first);
+      if (joins(column)) joined.join(columns[column].second - first, columns[column].first - first);
     std::map<int, PossibleSum> groups;
     for (int row = first; row < first + size; ++row) {
-      PossibleSum& group = groups[root_of(parent, row - first)];
+      PossibleSum& group = groups[joined.root(row - first)];
       group.rows.push_back(row);
       for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry)
         if (!joins(static_cast<int>(entry.col()))) group.columns.push_back(static_cast<int>(entry.col()));
@@ -216,8 +206,7 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
   for (const UnknownBlock& block : blocks) {
     if (block.kind != BlockKind::interface || !block.may_store) continue;
     const int first = block.first, size = block.entities * block.components;
-    std::vector<int> parent(size);
-    std::iota(parent.begin(), parent.end(), 0);
+    JoinedSets joined(size);
     std::vector<double> weakest(size, HUGE_VAL), strongest(size, 0), outwards(size, 0);
     for (const int at : columns_outside(rows, first, first + size, columns)) {
       const Column column = std::exchange(columns[at], Column{});
@@ -237,10 +226,10 @@ std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const st
           outwards[row - first] = std::max(outwards[row - first], conductance(row));
         }
       }
-      if (joins) parent[root_of(parent, column.second - first)] = root_of(parent, column.first - first);
+      if (joins) joined.join(column.second - first, column.first - first);
     }
     std::map<int, std::vector<int>> members;
-    for (int row = 0; row < size; ++row) members[root_of(parent, row)].push_back(first + row);
+    for (int row = 0; row < size; ++row) members[joined.root(row)].push_back(first + row);
     for (auto& [root, group] : members) {
       double inside = 0, outside = 0;
       bool stores_little = group.size() > 1;

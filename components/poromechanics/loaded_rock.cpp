@@ -1,0 +1,149 @@
+#include "components/poromechanics/loaded_rock.hpp"
+
+#include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/principal_stress.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk::poromechanics {
+
+LoadedRock::LoadedRock(const ComponentContext& context, const Options& options, Location location)
+    : Component(context.name),
+      mesh_(context.mesh),
+      options_(options),
+      origin_(context.origin),
+      displacement_(context.fields.add(mesh_, {.owner = context.name,
+                                               .name = "displacement",
+                                               .location = location,
+                                               .components = dimension,
+                                               .role = Role::unknown(BlockKind::bulk_elastic),
+                                               .unit = "m",
+                                               .doc = "Displacement of the rock"})),
+      stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
+  check_conditions(options_, mesh_, context.origin);
+}
+
+void LoadedRock::add_wall_traction(FieldStore& fields) {
+  if (mesh_.wall_count() == 0) return;
+  wall_traction_ = &fields.add(mesh_, {.owner = name(),
+                                       .name = "wall_traction",
+                                       .location = Location::fracture_cell,
+                                       .components = dimension,
+                                       .role = Role::input(BlockKind::interface),
+                                       .unit = "Pa",
+                                       .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
+}
+
+void LoadedRock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {
+  SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
+  SPREKK_EXPECT(reference.size() == mesh_.cell_count(), pressure.name(), reference.size(), mesh_.cell_count());
+  SPREKK_EXPECT(pressure.size() == mesh_.cell_count(), pressure.name(), pressure.size(), mesh_.cell_count());
+  loads_.push_back({&pressure, alpha, reference, alpha});
+}
+
+void LoadedRock::change_alpha(const Field& pressure, const Vector& alpha) {
+  SPREKK_EXPECT(alpha.size() == mesh_.cell_count(), pressure.name(), alpha.size(), mesh_.cell_count());
+  for (PoreLoad& load : loads_) {
+    if (load.pressure != &pressure) continue;
+    load.given = alpha;
+    load.change_alpha(stiffness_.excavation().of_rock(alpha));
+  }
+}
+
+bool LoadedRock::evaluate(const StepTime& step) {
+  const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
+  if (data_evaluated_ && (same_step || !(stiffness_.changes() || options_.loads_depend_on_time()))) return false;
+  data_evaluated_ = true;
+  evaluated_for_ = step;
+  loads_applied_ = false;
+  stiffness_.evaluate(step);
+  const Excavation& excavation = stiffness_.excavation();
+  if (excavation.version() == used_excavation_) return true;
+  used_excavation_ = excavation.version();
+  for (PoreLoad& load : loads_) load.change_alpha(excavation.of_rock(load.given));
+  return true;
+}
+
+std::uint64_t LoadedRock::alpha_version() const {
+  std::uint64_t version = 1;
+  for (const PoreLoad& load : loads_) version += load.alpha_version;
+  return version;
+}
+
+void LoadedRock::count_from_here(const SettledFields& settled) {
+  if (settled.fields.empty()) return;
+  if (settled.contain(displacement_)) count_from_equilibrium();
+  count_loads_from_here(settled, displacement_, loads_);
+  data_evaluated_ = false;
+  begin_step(StepTime(evaluated_for_));
+}
+
+void LoadedRock::keep_settled(Vector forces, Vector displacements) {
+  SettledRock settled{std::move(forces), mean_stress(), std::move(displacements)};
+  if (wall_traction_) {
+    jumps_ = displacement_jump().now();
+    exchange(mesh_, Location::fracture_cell, dimension, jumps_);
+  }
+  settled_ = std::move(settled);
+}
+
+void LoadedRock::count_jumps_from(const Vector& jumps) {
+  SPREKK_EXPECT(wall_traction_ && jumps.size() == wall_traction_->size(), jumps.size());
+  jumps_ = jumps;
+  loads_applied_ = false;
+}
+
+void LoadedRock::add_jumps(Vector& owned) const {
+  if (jumps_.size() == 0) return;
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+    if (is_owned(mesh_, Location::fracture_cell, i))
+      owned.segment<dimension>(dimension * i) += jumps_.segment<dimension>(dimension * i);
+}
+
+void LoadedRock::save(std::map<std::string, Vector>& state) const {
+  if (settled_) settled_->save(name(), state);
+  save_loads(name(), loads_, state);
+  if (jumps_.size() > 0) state[key_of_jumps(name())] = jumps_;
+}
+
+void LoadedRock::restore(const std::map<std::string, Vector>& state) {
+  settled_ = SettledRock::restored(name(), state);
+  restore_loads(name(), loads_, state);
+  if (const auto kept = state.find(key_of_jumps(name())); kept != state.end()) jumps_ = kept->second;
+  data_evaluated_ = false;
+}
+
+Vector LoadedRock::pore_stress() const {
+  Vector stress = Vector::Zero(mesh_.cell_count());
+  for (const PoreLoad& load : loads_) stress -= load.stress();
+  return stress;
+}
+
+Vector LoadedRock::pore_stress_by(const Field& pressure) const {
+  for (const PoreLoad& load : loads_)
+    if (load.pressure == &pressure) return -load.alpha;
+  return {};
+}
+
+SymmetricTensor LoadedRock::initial_stress(int cell, const Point& x) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
+  const double support = stiffness_.excavation().support(cell);
+  if (settled_) return support * settled_->stress.segment<symmetric_components>(symmetric_components * cell);
+  return support * options_.initial_stress_at({x, mesh_.cell_region[cell], 0});
+}
+
+Point LoadedRock::body_force(int cell, const Point& x) const {
+  SPREKK_EXPECT(is_index(cell, mesh_.cell_count()), cell, mesh_.cell_count());
+  return stiffness_.excavation().support(cell) *
+         options_.body_force_in(evaluated_for_, {x, mesh_.cell_region[cell], 0});
+}
+
+std::vector<double> LoadedRock::switch_times() const {
+  std::vector<const Data*> data = stiffness_.data(), loads = options_.loads();
+  data.insert(data.end(), loads.begin(), loads.end());
+  return merged_switch_times(data);
+}
+
+void LoadedRock::output(std::vector<OutputField>& fields) const { output_stress(name(), mean_stress(), fields); }
+
+}  // namespace sprekk::poromechanics

@@ -1,0 +1,62 @@
+// What one part has received and another one has counted, where the two may be solved one after the other.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "framework/field/counted_amounts.hpp"
+#include "framework/field/field_store.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
+
+namespace sprekk::couplers {
+
+/// Fluid that passes from one part to another, an amount for each entity (volume_unit): what has passed by the
+/// solution for `by`, and what of it the equations of `counting` have counted. So nothing is lost when the two are
+/// solved one after the other, or one of them in substeps. Only the difference of both sums is kept at the end of a
+/// step: sums since the start would have the round-off of all fluid that has ever passed, which may be any multiple of
+/// what passes now.
+class PassedAmounts {
+ public:
+  /// Adds the fields `exchanged` and `counted` of a coupler. `location`: where the amounts are.
+  PassedAmounts(FieldStore& fields, const Mesh& mesh, const std::string& owner, Location location, const Field& by,
+                const Field& counting, const char* receiver, const char* counter)
+      : mesh_(mesh), by_(by), counting_(counting) {
+    const auto add = [&](const char* name, const Field& unknown, const std::string& doc) {
+      FieldSpec spec = amounts_with(unknown, owner, name, volume_unit, doc);
+      spec.location = location;
+      return &fields.add(mesh, std::move(spec));
+    };
+    passed_ =
+        add("exchanged", by,
+            "Fluid that the " + std::string(receiver) + " has received, with what was not counted before the step");
+    counted_ = add("counted", counting, "Of it, what the " + std::string(counter) + " has counted");
+  }
+
+  /// What has passed by now, or by the start of the step, that had not been counted before the step.
+  Vector uncounted_now() const { return passed_->now() - counted_->accepted(); }
+  Vector uncounted_at_start() const { return passed_->accepted() - counted_->accepted(); }
+
+  /// To be called after each solve; `passing`: a function that gives what passes in the step.
+  template <class Passing>
+  void after_solve(const std::vector<Field*>& solved, const Passing& passing) {
+    if (std::ranges::count(solved, &by_) > 0) passed_->set(passed_->accepted() + passing());
+    if (std::ranges::count(solved, &counting_) > 0) counted_->set(passed_->now());
+  }
+  void accepted() {
+    passed_->set_both(uncounted_at_start());
+    counted_->set_both(Vector::Zero(counted_->size()));
+  }
+  void begin() {
+    for (Field* amount : {passed_, counted_}) amount->set_both(Vector::Zero(amount->size()));
+  }
+  /// The sum of what has passed and is not counted, as the owners have it. Collective.
+  double sum_uncounted() const { return sum_owned(mesh_, passed_->spec().location, passed_->now() - counted_->now()); }
+
+ private:
+  const Mesh& mesh_;
+  const Field &by_, &counting_;
+  Field *passed_ = nullptr, *counted_ = nullptr;
+};
+
+}  // namespace sprekk::couplers

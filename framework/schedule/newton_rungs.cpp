@@ -1,0 +1,151 @@
+// The rungs of Newton's method: what is tried for a step, the quickest first, the surest last
+// (docs/numerics/coupling_and_time.md#newton).
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "framework/invariants.hpp"
+#include "framework/schedule/newton.hpp"
+#include "framework/schedule/search_mode_guard.hpp"
+
+namespace sprekk {
+
+StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start) {
+  state_has_changed_ = false;
+  // 1. Full steps, as active sets usually settle by themselves.
+  StepStatus status = attempt_also_without_conditions(step, start, Until::search);
+  if (status.converged) return status;
+  const SearchModeGuard guard(SearchMode::without_shortcuts, SearchMode::with_shortcuts, pieces_);
+  const auto try_again = [&](const auto& rung) {
+    set(start);
+    const int before = status.iterations;
+    status = rung();
+    status.iterations += before;
+  };
+  // 2. Without the shortcuts of parts, and with a line search from some iteration on.
+  if (was_left_)
+    try_again(
+        [&] { return finish_with_own_derivatives(step, attempt_also_without_conditions(step, start, Until::end)); });
+  if (status.converged || status.iterations <= 1) return status;
+  // 3. Descent from the first iteration on: full steps may have led to where no descent leads back from.
+  if (options_.undamped > 0) try_again([&] { return finish_with_own_derivatives(step, attempt(step, 0)); });
+  if (status.converged || !may_follow_path(step)) return status;
+  // 4. The path from piece to piece.
+  return follow_paths(step, start, std::move(status));
+}
+
+/// If the system is singular, because nothing holds some unknown in the present discrete state, a further attempt
+/// starts from fields whose conditions are inactive (PiecewiseSmooth::deactivate_conditions).
+StepStatus Newton::attempt_also_without_conditions(const StepTime& step, const std::vector<Vector>& start,
+                                                   Until until) {
+  StepStatus tried = attempt(step, options_.undamped, until);
+  if (tried.converged || !was_singular_) return tried;
+  const int before = tried.iterations;
+  set(start);
+  for (PiecewiseSmooth* part : pieces_) part->deactivate_conditions();
+  tried = attempt(step, options_.undamped, until);
+  tried.iterations += before;
+  return tried;
+}
+
+bool Newton::is_nonlinear_in_pieces() const {
+  return std::ranges::any_of(pieces_, [](const PiecewiseSmooth* part) { return part->is_nonlinear_in_pieces(); });
+}
+
+/// Without shortcuts parts that are nonlinear in pieces come near the solution surely and slowly. From there their own
+/// derivatives are quick.
+StepStatus Newton::finish_with_own_derivatives(const StepTime& step, StepStatus status) {
+  if (status.converged || !is_used_up_ || !is_nonlinear_in_pieces()) return status;
+  const SearchModeGuard own(SearchMode::piecewise, SearchMode::without_shortcuts, pieces_);
+  StepStatus finished = attempt(step, options_.undamped);
+  finished.iterations += status.iterations;
+  return finished;
+}
+
+/// A path that has failed is tried again in a much shorter step only.
+bool Newton::may_follow_path(const StepTime& step) const {
+  constexpr double much_shorter = 1.0 / 2;
+  if (options_.pieces == 0 || !(state_has_changed_ || is_nonlinear_in_pieces())) return false;
+  const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
+  return !has_failed || step.dt <= much_shorter * last_failed_path_.dt;
+}
+
+/// The path is followed with coefficients held, then corrected with the true ones, which are released in shares where
+/// that fails; and then with all derivatives.
+StepStatus Newton::follow_paths(const StepTime& step, const std::vector<Vector>& start, StepStatus status) {
+  const bool is_used_up = is_used_up_;
+  const std::vector<Vector> tried = values();
+  for (const SearchMode mode : {SearchMode::piecewise_linear, SearchMode::piecewise}) {
+    set(start);
+    StepStatus path = follow_path(step, mode);
+    status.iterations += path.iterations;
+    if (lost_ && mode == SearchMode::piecewise) {
+      status.reason = lost_->told;
+      status.lost_at = lost_->time;
+      status.is_hopeless = least_iterations_ == 0;  // in an iteration other unknowns are held
+      break;
+    }
+    // Iterates from the end of the path with the true coefficients, until balances hold.
+    if (path.converged) {
+      const std::vector<Vector> end = values();
+      path = attempt(step, options_.undamped);
+      status.iterations += path.iterations;
+      if (!path.converged && mode == SearchMode::piecewise_linear) {
+        const std::string reason = path.reason;
+        set(end);
+        path = release_coefficients(step, start);
+        path.reason = reason + "; then " + path.reason;
+        status.iterations += path.iterations;
+      }
+    }
+    if (path.converged) return {true, "", status.iterations};
+    status.reason += "; then " + path.reason;
+    if (is_path_stuck_) break;  // with other derivatives its pieces are the same
+  }
+  last_failed_path_ = step;
+  if (is_used_up) set(tried);
+  is_used_up_ = is_used_up;
+  return status;
+}
+
+StepStatus Newton::attempt_with_share(const StepTime& step, double share) {
+  SPREKK_EXPECT(share > 0 && share <= 1, share);
+  for (PiecewiseSmooth* part : pieces_) part->release_coefficients(share);
+  return attempt(step, options_.undamped);
+}
+
+/// Coefficients c_0^(1 - share) c^share, for shares that grow from 0, where the path has ended, to 1. Each solution is
+/// the start for the next share. After a failure the increment of the share is halved, after a success doubled.
+StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<Vector>& start) {
+  constexpr double first = 0.25, smallest = 1.0 / 64;
+  std::vector<Vector> reached = values();
+  set(start);
+  for (PiecewiseSmooth* part : pieces_) part->hold_coefficients();
+  set(reached);
+  int iterations = 0;
+  double share = 0, increment = first;
+  std::string reason;
+  while (share < 1 && increment >= smallest) {
+    const double next = std::min(1.0, share + increment);
+    const StepStatus status = attempt_with_share(step, next);
+    iterations += status.iterations;
+    if (status.converged) {
+      share = next;
+      increment *= 2;
+      if (share < 1) reached = values();
+    } else {
+      reason = status.reason;
+      increment = 0.5 * (next - share);
+      set(reached);
+    }
+  }
+  for (PiecewiseSmooth* part : pieces_) part->release_coefficients(1);
+  if (share == 1) return {true, "", iterations};
+  return {
+      false,
+      fmt::format("the coefficients could be released from their values at the start up to a share of {:.2g} only: {}",
+                  share, reason),
+      iterations};
+}
+
+}  // namespace sprekk
