@@ -46,7 +46,7 @@ class Continuation {
  private:
   static bool can_go_on(const PathExtension& extension) {
     return extension.replaced == 1 && extension.whole_segments &&
-           (extension.points.size() == 1 || extension.points.size() == 2);
+           (extension.points.size() == 1 || (extension.points.size() == 2 && extension.divides));
   }
 
   LastCell last_cell(const PathExtension& extension) const {

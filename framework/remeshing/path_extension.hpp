@@ -20,6 +20,7 @@ struct PathExtension {
   /// Each segment becomes one fracture cell, however long it is; more only where it crosses or follows an interface
   /// between regions.
   bool whole_segments = false;
+  bool divides = false;  ///< the first point lies on the replaced cells: it divides them
 };
 
 /// A path that a fracture cannot take, with place and reason, so that the caller can stop the growth of that fracture.

@@ -31,7 +31,7 @@ class Placement {
   }
 
   PathNodes run(const RawMesh& raw, const std::vector<PathExtension>& extensions) {
-    for (const auto& [fracture, at_end, points, replaced, whole_segments] : extensions) {
+    for (const auto& [fracture, at_end, points, replaced, whole_segments, divides] : extensions) {
       const auto& chain = raw.fractures[fracture].nodes;
       SPREKK_EXPECT(is_index(fracture, static_cast<long>(raw.fractures.size())), fracture);
       SPREKK_EXPECT(!points.empty(), fracture);

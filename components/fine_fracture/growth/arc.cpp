@@ -35,6 +35,12 @@ PlaceOnPath place_on_arc(const Point& anchor, const Point& start, const Point& e
   return {anchor + length * turned(direction, turn - half), turned(direction, turn - 2 * half)};
 }
 
+PlaceOnPath place_on_segment(const Point& anchor, const std::optional<Point>& start, const Point& end, double length) {
+  if (start) return place_on_arc(anchor, *start, end, length);
+  const Point ahead = (end - anchor).normalized();
+  return {anchor + length * ahead, ahead};
+}
+
 Point corner_of_arc(const Point& anchor, const Point& start, const Point& end) {
   const Point chord = end - anchor;
   SPREKK_EXPECT(chord.norm() > 0, chord.norm());

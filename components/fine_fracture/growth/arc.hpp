@@ -1,6 +1,8 @@
 // Arcs: the form of the last segment of a path.
 #pragma once
 
+#include <optional>
+
 #include "framework/types.hpp"
 
 namespace sprekk::fine_fracture {
@@ -15,6 +17,9 @@ struct PlaceOnPath {
 /// this distance (m) from the anchor. An arc from there to `end` is a part of the whole one. An arc that turns by more
 /// than 0.8 rad is not followed.
 PlaceOnPath place_on_arc(const Point& anchor, const Point& start, const Point& end, double length);
+
+/// The same on a last segment: an arc where it begins in a fixed direction, otherwise the straight line to `end`.
+PlaceOnPath place_on_segment(const Point& anchor, const std::optional<Point>& start, const Point& end, double length);
 
 constexpr double place_of_corner = 0.75;  ///< along the arc from its anchor, over its length
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ struct FrontTip {
   double ahead = 0;
   double turning = 0;    ///< rad/m, of `ahead` by the growth in the last step
   bool is_bent = false;  ///< whether the segment begins in a fixed direction: its end turns twice as much as its chord
-  bool goes_on = false;  ///< grows in the first trial, whatever its load
+  Point start = Point::Zero();  ///< unit vector, this direction
+  bool goes_on = false;         ///< grows in the first trial, whatever its load
   /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
   double first_length = 0, first_angle = 0;
 };
@@ -50,6 +52,7 @@ struct FrontOptions {
   double direction_tolerance = 1e-6;  ///< |K_II/K_I| of growing tips
   double increment = 0;               ///< m, the scale of advances
   double shortest = 0;                ///< m, of a new segment
+  double longest_jump = std::numeric_limits<double>::infinity();  ///< m, of a tip in one step
   int most_trials = 20;
 };
 

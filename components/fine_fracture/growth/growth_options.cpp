@@ -58,9 +58,10 @@ Spec GrowthOptions::spec() {
       {.range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false},
        .doc = "Shortest increment over the longest; a tip that would grow less waits, or less than a tenth of it where "
               "K_eq is above the toughness by two tolerances."});
-  spec.quantity(
-      "longest", longest,
-      {.unit = "m", .range = positive(), .doc = "Most that a tip adds at once; without it there is no limit."});
+  spec.quantity("longest", longest,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Most that a tip adds at once, also in a jump within a step; without it there is no limit."});
   spec.integer("at_most", at_most, {.range = between(1, 10000), .doc = "Most increments that a tip adds at once."});
   spec.integer(
       "tries", tries,

@@ -36,7 +36,11 @@ void TipsFront::note_rough_front() {
 
 /// Returns false where no tip can advance.
 bool TipsFront::begin_jump() {
-  jump_ = std::make_unique<FrontJump>(at_start_, without_growth_, options_);
+  jump_ = std::make_unique<FrontJump>(
+      at_start_, without_growth_, options_, [this](int tip, const Point& from, const Point& ahead) {
+        const double reach = 2 * options_.increment;  // beyond the next division
+        return std::min(reach, tips_.free_distance(tips_.tips_[tip], {{from}}, from + reach * ahead));
+      });
   for (std::size_t i = 0; i < at_start_.size(); ++i)
     if (is_blocked_[i]) jump_->stop(static_cast<int>(i));
   if (jump_->verdict() != Front::Verdict::again) jump_.reset();
@@ -53,6 +57,11 @@ bool TipsFront::retreat() {
   return true;
 }
 
+std::string TipsFront::why_it_ends() const {
+  if (jump_->verdict() == Front::Verdict::found) return "comes to rest";
+  return jump_->is_left() ? "stops where it could not be followed further" : "has gone as far as it may in one step";
+}
+
 FrontSearch::Verdict TipsFront::end_jump() {
   bool is_jump = false;
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
@@ -65,13 +74,13 @@ FrontSearch::Verdict TipsFront::end_jump() {
     const double energy = record.surplus * toughness * toughness / Elasticity{lame.lambda, lame.shear}.plane_modulus();
     notes_.push_back(
         {name + " jumps",
-         fmt::format("{} jumps by {:.3g} mm in one step ({}) and {}; K_eq/K_IC is up to {:.4g} on the way, and {:.3g} "
-                     "J/m of energy are left over",
-                     name, 1e3 * record.advance,
-                     record.is_unstable ? "its load rises with its length: growth is unstable"
-                                        : "its load does not fall to the toughness nearby",
-                     jump_->verdict() == Front::Verdict::found ? "comes to rest" : "goes on in the next one",
-                     record.largest_load, energy),
+         fmt::format(
+             "{} jumps from {:.4g} mm to {:.4g} mm of growth in no time, with the fluid that there is ({}), and "
+             "{}; K_eq/K_IC is up to {:.4g} on the way, and {:.3g} J/m of energy are left over",
+             name, 1e3 * tips_.tips_[i].length_at_start, 1e3 * (tips_.tips_[i].length_at_start + record.advance),
+             record.is_unstable ? "its load rises with its length: growth is unstable"
+                                : "its load does not fall to the toughness nearby",
+             why_it_ends(), record.largest_load, energy),
          energy});
   }
   if (const auto& drop = jump_->drop())

@@ -93,8 +93,7 @@ void TipsFront::add(Tips::Tip& tip) {
     tip.next_start = tip.now.segment_start;
     if (const double stays = what_stays(tip, start); stays > 0) {
       // What goes on is an arc of the same curvature; what stays becomes straight.
-      const PlaceOnPath place = tip.now.segment_start ? place_on_arc(start.anchor, *tip.now.segment_start, end, stays)
-                                                      : PlaceOnPath{start.anchor + stays * ahead, ahead};
+      const PlaceOnPath place = place_on_segment(start.anchor, tip.now.segment_start, end, stays);
       start.anchor = place.position;
       start.covered = (end - start.anchor).norm();
       start.angle = angle_of(end - start.anchor);
@@ -105,6 +104,7 @@ void TipsFront::add(Tips::Tip& tip) {
       tip.next_start = ahead;
     }
     start.is_bent = tip.next_start.has_value();
+    start.start = tip.next_start.value_or(start.start);
     if (start.is_bent)
       start.ahead = start.angle + angle_between(end - start.anchor, *tip.next_start + tips_.end_direction(tip));
   }

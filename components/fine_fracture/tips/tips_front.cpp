@@ -28,6 +28,7 @@ TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goe
   end_blocked();
   options_.increment = tips_.options_.growth.increment;
   options_.shortest = tips_.options_.growth.smallest_length();
+  options_.longest_jump = tips_.options_.growth.longest.value_or(options_.longest_jump);
   options_.load_tolerance = tips_.options_.growth.front_tolerance;
   options_.direction_tolerance = direction_over_load * options_.load_tolerance;
   for (std::size_t i = 0; i < tips_.tips_.size(); ++i) {
@@ -46,11 +47,20 @@ void TipsFront::propose() {
   tip_of_path_.assign(paths_.size(), none);
   for (std::size_t i = 0; i < at_start_.size(); ++i) {
     if (jump_ ? !jump_->is_laid(i) : !front_->is_laid(i)) continue;
-    const double angle = jump_ ? jump_->angle(i) : front_->angle(i),
-                 length = jump_ ? jump_->length(i) : front_->length(i);
-    PathExtension extension{tips_.tips_[i].end.fracture, tips_.tips_[i].end.at_end, segments_[i].before};
-    extension.points.push_back(at_start_[i].anchor + length * Point(std::cos(angle), std::sin(angle)));
+    Tips::Tip& tip = tips_.tips_[i];
+    const double angle = front_->angle(i);
+    const std::vector<Point> points =
+        jump_ ? jump_->points(i)
+              : std::vector{Point(at_start_[i].anchor + front_->length(i) * Point(std::cos(angle), std::sin(angle)))};
+    PathExtension extension{tip.end.fracture, tip.end.at_end, segments_[i].before};
+    extension.points.insert(extension.points.end(), points.begin(), points.end());
     extension.replaced = segments_[i].replaced;
+    extension.divides = !segments_[i].before.empty();
+    if (jump_) {
+      tip.next_start = jump_->start(i);
+      // A fine level around a tip that goes far is not moved with it.
+      if (points.size() > 1) tip.pattern.reset();
+    }
     extension.whole_segments = true;
     paths_.push_back(std::move(extension));
     tip_of_path_.push_back(static_cast<int>(i));
@@ -96,8 +106,9 @@ Tips::Tip* TipsFront::same_tip(Tips& there, int tip) const {
 /// the advance.
 double TipsFront::speed(std::size_t i) const {
   const int tip = static_cast<int>(i);
-  const double length = jump_ ? jump_->length(i) : front_->length(tip);
-  return std::max(0.0, length - std::max(at_start_[i].covered, at_start_[i].least)) / dt_;
+  const double advance =
+      jump_ ? jump_->advance(tip) : front_->length(tip) - std::max(at_start_[i].covered, at_start_[i].least);
+  return std::max(0.0, advance) / dt_;
 }
 
 FrontState TipsFront::state_in_trial(const Tips& there, const Tips::Tip& same, std::size_t i) const {

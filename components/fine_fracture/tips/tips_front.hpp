@@ -57,6 +57,7 @@ class TipsFront : public FrontSearch {
   void note_rest(double worst);
   void note_rough_front();
   Verdict end_jump();
+  std::string why_it_ends() const;  ///< the jump, as a part of a sentence
 
   Tips& tips_;
   std::vector<Segment> segments_;

@@ -17,7 +17,7 @@ bool has_same_ends(const std::vector<PathExtension>& one, const std::vector<Path
 }
 
 /// Whether the path divides the last cell of its fracture.
-bool divides(const PathExtension& path) { return path.points.size() == 2; }
+bool divides(const PathExtension& path) { return path.divides && path.points.size() == 2; }
 
 /// Whether all paths go on from the last cells of their fractures.
 bool go_on(const std::vector<PathExtension>& paths) {

@@ -22,7 +22,7 @@ Mesh sample(double angle) {
 /// The last cell becomes longer by a part of itself and turns; with `first` it is divided there.
 PathExtension going_on(const Mesh& mesh, bool at_end, double longer, double turn, std::optional<double> first = {}) {
   const Point tip_now = tip(mesh, 0, at_end), ahead = direction(mesh, 0, at_end), anchor = tip_now - size * ahead;
-  PathExtension path{0, at_end, {}, 1, true};
+  PathExtension path{0, at_end, {}, 1, true, first.has_value()};
   if (first) path.points.push_back(anchor + *first * size * ahead);
   const Point from = first ? path.points[0] : anchor;
   const double left = first ? 1 - *first : 1;
