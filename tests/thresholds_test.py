@@ -110,7 +110,6 @@ EXEMPT_ONES = (
     ("components/fracture_flow/tpfa/mean_along.cpp", "weight", "its weights"),
     ("components/fracture_flow/tpfa/mean_along.cpp", "0.75", "a substitution in it"),
     ("components/fracture_flow/tpfa/mean_along.hpp", "count", "a quadrature"),
-    ("components/matrix_flow/mpfa/plane/tip_flow.cpp", "linear_terms", "a count"),
     ("components/matrix_flow/rt0/flux_mass.cpp", "of_corners", "a place in the unit square"),
     ("components/matrix_flow/rt0/flux_mass.cpp", "of_gauss", "points of a quadrature"),
     ("components/poromechanics/mpsa/tip_field.cpp", "1.5", "the power of a term of the field at a tip"),

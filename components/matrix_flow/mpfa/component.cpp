@@ -21,8 +21,7 @@ class Mpfa : public MatrixFlow {
 
   void note_input(Notes& notes) const override {
     MatrixFlow::note_input(notes);
-    if constexpr (dimension == 2)
-      if (is_permeable()) note_uncorrected_tips(notes, name(), mesh(), mobility());
+    if (is_permeable()) note_uncorrected_tips(notes, name(), mesh(), mobility());
   }
 };
 

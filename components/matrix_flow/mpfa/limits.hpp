@@ -1,7 +1,7 @@
 // Numbers on which the discretization of the flux depends.
 #pragma once
 
-#include "framework/discretization/plane/ends_nearby.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 
 namespace sprekk::matrix_flow {
 

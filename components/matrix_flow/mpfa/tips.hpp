@@ -10,8 +10,9 @@
 
 namespace sprekk::matrix_flow {
 
-/// Fluxes and pressures of local problems by the pressures of cells. In a plane the singular flow around the tips of
-/// fractures is added near them (TipFlow, TipCorrection), by the pressures of all cells around a tip; in space nothing.
+/// Fluxes and pressures of local problems by the pressures of cells. The singular flow around the tips of fractures is
+/// added near them (TipFlow, TipCorrection), by the pressures of all cells around a tip. In space a tip is a node of a
+/// rim, around which the flow is that across the rim.
 class Tips {
  public:
   /// `nodes`: those that are discretized; empty means all. The mesh and what describes it outlive the tips.
@@ -31,7 +32,7 @@ class Tips {
   struct Content;
   const Mesh& mesh_;
   const LocalFluxes* local_ = nullptr;
-  std::shared_ptr<Content> content_;  ///< in a plane
+  std::shared_ptr<Content> content_;
 };
 
 }  // namespace sprekk::matrix_flow

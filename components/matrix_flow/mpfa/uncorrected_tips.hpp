@@ -6,7 +6,7 @@
 
 #include "components/matrix_flow/flux_operators.hpp"
 #include "framework/assembly/notes.hpp"
-#include "framework/discretization/plane/uncorrected_ends.hpp"
+#include "framework/discretization/uncorrected_ends.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -14,7 +14,8 @@ namespace sprekk::matrix_flow {
 /// cell, m^2/(Pa s).
 UncorrectedEnds uncorrected_tips(const Mesh& mesh, const std::vector<Tensor>& mobility);
 
-/// Notes how many tips of the flow `name` are uncorrected, and why.
+/// Notes how many tips of the flow `name` are uncorrected, and why; in space if they are at least half of the nodes of
+/// rims.
 void note_uncorrected_tips(Notes& notes, const std::string& name, const Mesh& mesh,
                            const std::vector<Tensor>& mobility);
 

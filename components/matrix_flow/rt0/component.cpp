@@ -54,7 +54,7 @@ class Rt0 : public MatrixFlow {
     MatrixFlow::note_input(notes);
     if (!is_permeable()) return;
     if (!is_lumped_) {
-      if constexpr (dimension == 2) note_uncorrected_tips(notes, name(), mesh(), mobility());
+      note_uncorrected_tips(notes, name(), mesh(), mobility());
       return;
     }
     int not_lumped = 0;

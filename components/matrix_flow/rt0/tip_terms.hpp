@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
 #include "components/matrix_flow/rt0/flux_mass.hpp"
 
 namespace sprekk::matrix_flow {
@@ -18,10 +18,10 @@ struct TipTerm {
 };
 
 /// The terms of all cells near tips. With piecewise linear pressures alone a fracture exchanges fluid with the rock
-/// like one that is longer or shorter by a part of a cell. So each cell whose corners all lie near one tip gets what
-/// its equation misses for the two modes of the flow, with pressures at the centres of cells and faces and fluxes in
-/// closed form. In space there are none. These terms vanish for linear pressures. As in MPFA, only as much of them is
-/// taken as gains no energy.
+/// like one that is longer or shorter by a part of a cell. So each cell whose corners all lie near one tip (in space,
+/// one rim) gets what its equation misses for the two modes of the flow, with pressures at the centres of cells and
+/// faces and fluxes in closed form. These terms vanish for linear pressures. As in MPFA, only as much of them is taken
+/// as gains no energy.
 class TipTerms {
  public:
   /// `masses`: flux_mass of every cell.

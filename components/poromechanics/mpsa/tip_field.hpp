@@ -8,7 +8,7 @@
 
 #include "components/poromechanics/mpsa/limits.hpp"
 #include "components/poromechanics/stiffness.hpp"
-#include "framework/discretization/plane/end_frame.hpp"
+#include "framework/discretization/end_frame.hpp"
 
 namespace sprekk::poromechanics {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "components/poromechanics/mpsa/tip_field.hpp"
-#include "framework/discretization/plane/end_surroundings.hpp"
+#include "framework/discretization/nodes_around_end.hpp"
 #include "framework/discretization/plane/end_zones.hpp"
 
 namespace sprekk::poromechanics {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
-#include "framework/discretization/plane/uncorrected_ends.hpp"
+#include "framework/discretization/uncorrected_ends.hpp"
 
 namespace sprekk::poromechanics {
 

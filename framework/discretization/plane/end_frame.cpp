@@ -1,9 +1,8 @@
-#include "framework/discretization/plane/end_frame.hpp"
+#include "framework/discretization/end_frame.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/plane/planar.hpp"
@@ -31,7 +30,7 @@ EndFrame::EndFrame(const Mesh& mesh, int end) : end_(end), origin_(mesh.nodes[en
   const auto wall = std::ranges::find_if(faces, [&](int face) { return mesh.face_fracture_cell[face] != none; });
   SPREKK_EXPECT(wall != std::end(faces), end);
   const Point ahead = (origin_ - mesh.face_center[*wall]).normalized();
-  axes_ << ahead.x(), -ahead.y(), ahead.y(), ahead.x();
+  axes_[0] << ahead.x(), -ahead.y(), ahead.y(), ahead.x();
   size_ = mesh.face_measure[*wall];
   SPREKK_ASSERT(size_ > 0, end, *wall, size_);
   const FractureCell& cell = mesh.fracture_cells[mesh.face_fracture_cell[*wall]];
@@ -62,7 +61,7 @@ int EndFrame::side_of(const Point& x) const {
 int EndFrame::side_of_wall(const Mesh& mesh, int face) const {
   SPREKK_EXPECT(is_index(face, mesh.face_count()) && mesh.face_fracture_cell[face] != none, face);
   const FractureCell& cell = mesh.fracture_cells[mesh.face_fracture_cell[face]];
-  const bool normal_points_left = axes_.col(1).dot(cell.normal) > 0;
+  const bool normal_points_left = axes().col(1).dot(cell.normal) > 0;
   const bool is_plus = cell.faces[static_cast<int>(Wall::plus)] == face;
   return is_plus == normal_points_left ? -1 : 1;  // the normal points out of the plus wall's rock
 }
@@ -74,13 +73,6 @@ int EndFrame::side_of_cell(const Mesh& mesh, int cell) const {
   return std::ranges::count(mesh.cell_nodes[cell], end_) > 0 ? 0 : side_of(mesh.cell_center[cell]);
 }
 
-EndFrame::Polar EndFrame::polar(const Point& x, int side) const {
-  SPREKK_EXPECT(side >= -1 && side <= 1, side);
-  const Point local = axes_.transpose() * (x - origin_);
-  const double angle = std::atan2(local.y(), local.x());
-  // Behind the end a fracture with a bend is beside the line through the end, so `side` decides the sign there.
-  const bool is_beyond = angle * side < 0 && local.x() < 0;
-  return {local.norm(), is_beyond ? angle + 2 * std::numbers::pi * side : angle};
-}
+const Tensor& EndFrame::axes_near(const Point&) const { return axes_[0]; }
 
 }  // namespace sprekk

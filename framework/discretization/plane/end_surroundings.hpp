@@ -1,10 +1,9 @@
-// Which nodes are ends of fractures, and which nodes around an end its singular field reaches undisturbed.
+// What lies at the nodes around the end of a fracture.
 #pragma once
 
 #include <array>
-#include <vector>
 
-#include "framework/mesh/mesh.hpp"
+#include "framework/discretization/nodes_around_end.hpp"
 
 namespace sprekk {
 
@@ -16,16 +15,9 @@ struct NodeWalls {
   NodeWalls(const Mesh& mesh, int node);
 };
 
-/// Whether a node is an end: both faces with one cell are walls of the same fracture cell, which ends at the node.
-bool is_fracture_end(const Mesh& mesh, int node);
-
 /// Whether the singular field of an end, the end of the given fracture cell, is undisturbed at a node: not on sides,
 /// not on other fractures, not on the end's own fracture beyond a kink (10 degrees), and not where the node has one
 /// cell.
 bool is_field_undisturbed(const Mesh& mesh, int node, const FractureCell& last);
-
-/// The nodes within so many edges of an end, the end among them, along nodes where its field is undisturbed
-/// (is_field_undisturbed).
-std::vector<int> nodes_around_end(const Mesh& mesh, int end, int edges);
 
 }  // namespace sprekk

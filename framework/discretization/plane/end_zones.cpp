@@ -5,9 +5,9 @@
 #include <limits>
 #include <set>
 
-#include "framework/discretization/plane/end_frame.hpp"
+#include "framework/discretization/end_frame.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "framework/discretization/plane/end_surroundings.hpp"
-#include "framework/discretization/plane/ends_nearby.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/search/plane/segment_tree.hpp"
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "framework/discretization/plane/ends_nearby.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk {

@@ -1,4 +1,4 @@
-#include "framework/discretization/plane/ends_nearby.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -29,6 +29,11 @@ std::vector<int> ends_nearby(const Mesh& mesh, const EndLimits& limits) {
   for (const Nearest& at : nearest) nearby.push_back(at.distance < limits.clearly * at.next ? at.end : none);
   SPREKK_ASSERT(static_cast<int>(nearby.size()) == mesh.node_count(), nearby.size(), mesh.node_count());
   return nearby;
+}
+
+int end_of_cell(const Mesh& mesh, int cell, const std::vector<int>& ends) {
+  const int end = ends[mesh.cell_nodes[cell][0]];
+  return std::ranges::all_of(mesh.cell_nodes[cell], [&](int node) { return ends[node] == end; }) ? end : none;
 }
 
 }  // namespace sprekk

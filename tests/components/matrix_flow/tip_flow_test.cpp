@@ -1,14 +1,14 @@
 // Fluxes near the tip of a fracture, against conjugate functions of the flow around it.
-#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 
+#include "components/matrix_flow/cells_around_tips.hpp"
 #include "components/matrix_flow/mpfa/mpfa.hpp"
-#include "components/matrix_flow/plane/cells_around_tips.hpp"
-#include "framework/discretization/plane/ends_nearby.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::matrix_flow {

@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "components/poromechanics/mpsa/mpsa.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "framework/discretization/plane/end_zones.hpp"
-#include "framework/discretization/plane/ends_nearby.hpp"
 #include "tests/components/meshes.hpp"
 
 namespace sprekk::poromechanics {

@@ -1,5 +1,5 @@
 // On which side of a fracture that kinks points lie, and their polar coordinates around its end.
-#include "framework/discretization/plane/end_frame.hpp"
+#include "framework/discretization/end_frame.hpp"
 
 #include <gtest/gtest.h>
 

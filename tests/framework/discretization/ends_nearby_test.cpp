@@ -1,4 +1,4 @@
-#include "framework/discretization/plane/ends_nearby.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,9 +16,13 @@ struct EndLimits {
   double clearly = 0.9;
 };
 
-/// For every node: the end (a node, see is_fracture_end) that the node is or that lies within `layers` edges of it, or
-/// none. The result is none for nodes on sides, on other fractures, on the end's own fracture beyond a kink (10
-/// degrees), with one cell, and about halfway between two ends.
+/// For every node: the end (a node, see is_fracture_end) that the node is or that lies within `layers` edges of it
+/// (nodes_around_end), or none. The result is none about halfway between two ends, in space between two rims, and where
+/// a node of a rim that is no end (a corner) is nearer.
 std::vector<int> ends_nearby(const Mesh& mesh, const EndLimits& limits = {});
+
+/// The end whose field counts in a whole cell, by ends_nearby of its corners: none where a corner has none. In a plane
+/// that of all of them, in space the nearest one, of corners that belong to one rim.
+int end_of_cell(const Mesh& mesh, int cell, const std::vector<int>& ends);
 
 }  // namespace sprekk

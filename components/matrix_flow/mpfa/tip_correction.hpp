@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
-#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
 #include "framework/discretization/interaction_region.hpp"
 
 namespace sprekk::matrix_flow {
@@ -18,14 +18,14 @@ class TipCorrection {
   TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, const LocalFluxes& local,
                 int node, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions);
 
-  /// The corrections of the flux through an inner subface (m^2/s), and of the pressure at a wall (Pa), for modes with
-  /// amounts of 1.
+  /// The corrections of the flux through an inner subface (m^2/s; m^3/s in space), and of the pressure at a wall (Pa),
+  /// for modes with amounts of 1.
   TipFlow::Modes of_flux(int subface) const;
   TipFlow::Modes of_pressure(int subface) const;
 
  private:
-  /// The flux through a part of a face out of its first cell, m^2/s. The mobility is the mean of its cells.
-  TipFlow::Modes flux(int face, const Point& from, const Point& to, int side) const;
+  double mobility_of(int face) const;  ///< the mean of its cells, m^2/(Pa s)
+  int side_of(int face) const;         ///< on which the part of a face in the region is seen
   Point continuity_point(int subface) const;
   TipFlow::Modes missing(const double* coefficients, TipFlow::Modes exact) const;
 
@@ -34,7 +34,7 @@ class TipCorrection {
   const InteractionRegion& region_;
   const LocalFluxes& local_;
   const std::vector<Tensor>& mobility_;
-  Point node_;
+  int node_;
   int side_ = 0;  ///< of the region; 0 at the tip itself
   /// The inputs of the local problem for each mode: pressures of the subcells, and boundary values of the walls.
   std::vector<TipFlow::Modes> inputs_;

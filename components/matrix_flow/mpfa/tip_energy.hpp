@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
 
 namespace sprekk::matrix_flow {
 

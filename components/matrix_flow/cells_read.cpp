@@ -1,7 +1,7 @@
 #include "components/matrix_flow/cells_read.hpp"
 
-#include "components/matrix_flow/plane/cells_around_tips.hpp"
-#include "framework/discretization/plane/ends_nearby.hpp"
+#include "components/matrix_flow/cells_around_tips.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 
 namespace sprekk::matrix_flow {
 

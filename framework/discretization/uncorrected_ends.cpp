@@ -1,4 +1,4 @@
-#include "framework/discretization/plane/uncorrected_ends.hpp"
+#include "framework/discretization/uncorrected_ends.hpp"
 
 namespace sprekk {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <span>
 
-#include "components/matrix_flow/mpfa/plane/tip_correction.hpp"
-#include "components/matrix_flow/mpfa/plane/tip_energy.hpp"
-#include "components/matrix_flow/plane/cells_around_tips.hpp"
-#include "framework/discretization/plane/ends_nearby.hpp"
+#include "components/matrix_flow/cells_around_tips.hpp"
+#include "components/matrix_flow/mpfa/tip_correction.hpp"
+#include "components/matrix_flow/mpfa/tip_energy.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
@@ -28,9 +28,12 @@ class TipFlows {
     for (int node = 0; node < mesh.node_count(); ++node) {
       const auto found = flows_.find(tips[node]);
       if (found == flows_.end()) continue;
-      const auto& cells = mesh.node_cells[node];
-      if (std::all_of(cells.begin(), cells.end(),
-                      [&](int cell) { return resembles(mobility[cell], found->second.mobility(), limits.alike); }))
+      const auto is_alike = [&](int cell) { return resembles(mobility[cell], found->second.mobility(), limits.alike); };
+      // A rim in space may meet a side, whose given pressure knows nothing of the flow around the rim.
+      const auto is_free = [&](int face) {
+        return mesh.face_side[face] == none || conditions[face] == FlowCondition::flux;
+      };
+      if (std::ranges::all_of(mesh.node_cells[node], is_alike) && std::ranges::all_of(mesh.node_faces[node], is_free))
         of_node_[node] = &found->second;
     }
     std::map<const TipFlow*, std::vector<int>> nodes;

@@ -1,4 +1,4 @@
-#include "components/matrix_flow/mpfa/plane/tip_flow.hpp"
+#include "components/matrix_flow/mpfa/tip_flow.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,14 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-constexpr int linear_terms = 3, terms = linear_terms + 2;
+/// Of a fit: the constant, the coordinates, and the modes.
+constexpr int terms = 1 + dimension + 2;
 
 }  // namespace
 
 bool is_isotropic(const Tensor& mobility) {
   constexpr double rounding = 1e-9;
-  const Tensor deviator = mobility - 0.5 * mobility.trace() * Tensor::Identity();
+  const Tensor deviator = mobility - mobility.trace() / dimension * Tensor::Identity();
   return mobility.trace() > 0 && deviator.lpNorm<Eigen::Infinity>() <= rounding * mobility.trace();
 }
 
@@ -32,20 +33,25 @@ std::optional<TipFlow> TipFlow::find(const Mesh& mesh, int tip, const std::vecto
     if (!resembles(mobility[cell], mean, limits.alike)) return std::nullopt;
   if (!is_isotropic(mean)) return std::nullopt;
   TipFlow flow(mesh, tip, cells, mean);
-  if (!flow.fit(mesh, limits)) return std::nullopt;
-  return flow;
+  // On a side the cells may all lie in one layer across the rim, so that nothing tells what changes along it.
+  for (int coordinates = dimension; coordinates >= 2; --coordinates)
+    if (flow.fit(mesh, limits, coordinates)) return flow;
+  return std::nullopt;
 }
 
 TipFlow::TipFlow(const Mesh& mesh, int tip, const std::vector<int>& cells, const Tensor& mobility)
     : frame_(mesh, tip), mobility_(mobility), cells_(cells) {}
 
-bool TipFlow::fit(const Mesh& mesh, const MpfaLimits& limits) {
-  const int count = static_cast<int>(cells_.size());
+bool TipFlow::fit(const Mesh& mesh, const MpfaLimits& limits, int coordinates) {
+  const int count = static_cast<int>(cells_.size()), terms = 1 + coordinates + 2;
   const double size = frame_.size();
   Eigen::MatrixXd basis(count, terms);
   for (int k = 0; k < count; ++k) {
-    const Point x = mesh.cell_center[cells_[k]], local = (x - frame_.origin()) / size;
-    basis.row(k) << 1, local.x(), local.y(), pressure(x, frame_.side_of_cell(mesh, cells_[k])) / std::sqrt(size);
+    const Point x = mesh.cell_center[cells_[k]];
+    Point local = (x - frame_.origin()) / size;
+    if constexpr (dimension == 3) local = (frame_.axes().transpose() * local).eval();
+    basis.row(k) << 1, local.head(coordinates).transpose(),
+        pressure(x, frame_.side_of_cell(mesh, cells_[k])) / std::sqrt(size);
   }
   const DenseSvd svd(basis, Eigen::ComputeThinU | Eigen::ComputeThinV);
   if (svd.singularValues()[terms - 1] < limits.well_posed * svd.singularValues()[0]) return false;
@@ -57,11 +63,6 @@ bool TipFlow::fit(const Mesh& mesh, const MpfaLimits& limits) {
 TipFlow::Modes TipFlow::pressure(const Point& x, int side) const {
   const auto [radius, angle] = frame_.polar(x, side);
   return std::sqrt(radius) * Modes(std::cos(0.5 * angle), std::sin(0.5 * angle));
-}
-
-TipFlow::Modes TipFlow::stream(const Point& x, int side) const {
-  const auto [radius, angle] = frame_.polar(x, side);
-  return std::sqrt(radius) * Modes(std::sin(0.5 * angle), -std::cos(0.5 * angle));
 }
 
 }  // namespace sprekk::matrix_flow

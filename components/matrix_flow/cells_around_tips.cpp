@@ -1,4 +1,4 @@
-#include "components/matrix_flow/plane/cells_around_tips.hpp"
+#include "components/matrix_flow/cells_around_tips.hpp"
 
 #include <algorithm>
 

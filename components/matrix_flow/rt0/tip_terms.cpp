@@ -2,30 +2,28 @@
 
 #include <algorithm>
 
-#include "components/matrix_flow/mpfa/plane/tip_energy.hpp"
-#include "components/matrix_flow/plane/cells_around_tips.hpp"
+#include "components/matrix_flow/cells_around_tips.hpp"
+#include "components/matrix_flow/mpfa/tip_energy.hpp"
 #include "framework/dense/cholesky.hpp"
-#include "framework/discretization/plane/ends_nearby.hpp"
+#include "framework/discretization/ends_nearby.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
 
 TipTerm term_of(const TipFlow& flow, const Mesh& mesh, int cell, const std::vector<Tensor>& mobility,
                 const FluxMass& mass) {
-  const Ring& faces = mesh.cell_faces[cell];
+  const CellFaces& faces = mesh.cell_faces[cell];
   const int side = flow.frame().side_of_cell(mesh, cell);
-  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, 4, 2> fluxes(faces.size(), 2), drops(faces.size(), 2);
+  Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most_faces, 2> fluxes(faces.size(), 2), drops(faces.size(), 2);
   for (int k = 0; k < faces.size(); ++k) {
     double conductance = 0, cells = 0;
     for (const int at : mesh.face_cells[faces[k]])
       if (at != none) {
-        conductance += mobility[at].trace() / 2;
+        conductance += mobility[at].trace() / dimension;
         ++cells;
       }
-    // The corners follow one another with the cell to their left, so what leaves it flows to the right.
-    const Point& from = mesh.nodes[mesh.cell_nodes[cell][k]];
-    const Point& to = mesh.nodes[mesh.cell_nodes[cell].after(k)];
-    fluxes.row(k) = conductance / cells * (flow.stream(from, side) - flow.stream(to, side));
+    const double out = mesh.face_cells[faces[k]][0] == cell ? 1 : -1;
+    fluxes.row(k) = conductance / cells * out * flow.flux(mesh, faces[k], side);
     drops.row(k) = flow.pressure(mesh.cell_center[cell], side) - flow.pressure(mesh.face_center[faces[k]], side);
   }
   return {&flow, mass * fluxes - drops};
@@ -46,9 +44,10 @@ class Power {
     linear_ = added_ = Eigen::MatrixXd::Zero(size(), size());
   }
 
-  void add(int cell, const FluxMass& mass, const TipTerm& term) {
+  /// The share of the power of a cell in linear pressures, and all of what `term` adds (null: nothing).
+  void add(int cell, const FluxMass& mass, double share, const TipTerm* term) {
     std::vector<int> free, given;
-    const Ring& faces = mesh_.cell_faces[cell];
+    const CellFaces& faces = mesh_.cell_faces[cell];
     for (int k = 0; k < faces.size(); ++k) (conditions_[faces[k]] == FlowCondition::flux ? given : free).push_back(k);
     // Rows: the drops p − h and the fluxes of all faces, by the unknowns; of linear pressures, and by the modes.
     const int count = faces.size();
@@ -64,15 +63,20 @@ class Power {
       const DenseCholesky factors(free_mass);
       const Eigen::MatrixXd of_free =
           factors.solve_columns(drops(free, Eigen::all) - coupling * fluxes(given, Eigen::all));
-      const Eigen::MatrixXd of_modes = factors.solve_columns(term.missing(free, Eigen::all));
       fluxes(free, Eigen::all) = of_free;
-      modes_of_fluxes(free, Eigen::all) = of_modes;
+      if (term) {
+        const Eigen::MatrixXd of_modes = factors.solve_columns(term->missing(free, Eigen::all));
+        modes_of_fluxes(free, Eigen::all) = of_modes;
+      }
     }
     if (!given.empty()) {
       drops(given, Eigen::all) = mass(given, Eigen::all) * fluxes;
-      modes_of_drops(given, Eigen::all) = mass(given, Eigen::all) * modes_of_fluxes - term.missing(given, Eigen::all);
+      if (term)
+        modes_of_drops(given, Eigen::all) =
+            mass(given, Eigen::all) * modes_of_fluxes - term->missing(given, Eigen::all);
     }
-    linear_ += drops.transpose() * fluxes;
+    linear_ += share * drops.transpose() * fluxes;
+    if (!term) return;
     Eigen::MatrixXd amounts = Eigen::MatrixXd::Zero(2, size());
     for (std::size_t i = 0; i < flow_.cells().size(); ++i)
       amounts.col(cells_.at(flow_.cells()[i])) = flow_.share().col(i);
@@ -101,23 +105,32 @@ TipTerms::TipTerms(const Mesh& mesh, const std::vector<Tensor>& mobility, const 
   const std::vector<int> tips = ends_nearby(mesh, limits.near);
   for (const auto& [tip, cells] : cells_around_tips(mesh, tips))
     if (const auto flow = TipFlow::find(mesh, tip, cells, mobility, limits)) flows_.emplace(tip, *flow);
-  std::map<int, std::vector<int>> cells_of;
-  for (int node = 0; node < mesh.node_count(); ++node)
-    if (flows_.count(tips[node]) > 0)
-      for (const int cell : mesh.node_cells[node])
-        if (mesh.cell_nodes[cell][0] == node) cells_of[tips[node]].push_back(cell);
+  std::map<int, std::vector<int>> cells_of, reached;
+  std::vector<int> tips_of(mesh.cell_count(), 0);  ///< that reach a cell
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    if (const int tip = end_of_cell(mesh, cell, tips); flows_.count(tip) > 0) cells_of[tip].push_back(cell);
   for (auto& [tip, cells] : cells_of) {
-    TipFlow& flow = flows_.at(tip);
-    std::erase_if(cells, [&, tip = tip](int cell) {
+    const TipFlow& flow = flows_.at(tip);
+    std::erase_if(cells, [&](int cell) {
       return !resembles(mobility[cell], flow.mobility(), limits.alike) ||
-             std::ranges::any_of(mesh.cell_nodes[cell], [&](int node) { return tips[node] != tip; }) ||
              std::ranges::any_of(mesh.cell_faces[cell],
                                  [&](int face) { return conditions[face] == FlowCondition::pressure; });
     });
+    reached[tip] = cells;
+    reached[tip].insert(reached[tip].end(), flow.cells().begin(), flow.cells().end());
+    std::ranges::sort(reached[tip]);
+    reached[tip].erase(std::unique(reached[tip].begin(), reached[tip].end()), reached[tip].end());
+    for (const int cell : reached[tip]) ++tips_of[cell];
+    for (const int cell : cells) terms_.emplace(cell, term_of(flow, mesh, cell, mobility, masses[cell]));
+  }
+  // The terms of a tip act on the pressures in all cells that its flow is fitted to, which those of its neighbours on a
+  // rim may change as well: each of them has a share in the power of such a cell.
+  for (auto& [tip, cells] : reached) {
+    TipFlow& flow = flows_.at(tip);
     Power power(flow, mesh, cells, conditions);
     for (const int cell : cells) {
-      const auto [place, fresh] = terms_.emplace(cell, term_of(flow, mesh, cell, mobility, masses[cell]));
-      power.add(cell, masses[cell], place->second);
+      const TipTerm* term = of(cell);
+      power.add(cell, masses[cell], 1.0 / tips_of[cell], term && term->flow == &flow ? term : nullptr);
     }
     if (const double part = power.dissipative_part(); part < 1) flow.scale(part);
   }

@@ -1,10 +1,10 @@
-#include "components/matrix_flow/mpfa/plane/tip_energy.hpp"
+#include "components/matrix_flow/mpfa/tip_energy.hpp"
 
 #include <array>
 #include <map>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
-#include "components/matrix_flow/mpfa/plane/tip_correction.hpp"
+#include "components/matrix_flow/mpfa/tip_correction.hpp"
 #include "framework/dense/cholesky.hpp"
 #include "framework/discretization/interaction_region.hpp"
 
@@ -17,7 +17,8 @@ constexpr double above_zero = 1e-300;
 /// Shares of the tip's part of the fluxes, tried in this order: the first that gains no energy is taken.
 constexpr std::array parts = {1.0, 0.75, 0.5, 0.25};
 
-/// The power that is lost in all regions of a tip, as a form of the pressures of cells and of what flows through walls.
+/// The power that is lost in all regions of a tip, as a form of the pressures of cells and of what flows through walls
+/// (in space also through sides that the rim meets).
 class Power {
  public:
   Power(const TipFlow& flow, const Mesh& mesh, const std::vector<int>& nodes) : flow_(flow) {
@@ -36,6 +37,7 @@ class Power {
   void add(const InteractionRegion& region, const LocalFluxes& local, const TipCorrection& tip) {
     for (int f = 0; f < region.subface_count(); ++f) {
       const auto [first, second] = region.neighbours[f];
+      const double share = region.shares[f];
       const int from = cells_.at(region.subcells[first].cell);
       if (region.is_inner(f)) {
         const int to = cells_.at(region.subcells[second].cell);
@@ -43,8 +45,8 @@ class Power {
         add_row(to, region, local.flux(f), tip.of_flux(f), -1);
       } else {
         const int wall = place_of_wall(region.faces[f]);
-        linear_(from, wall) += 0.5;
-        add_row(wall, region, local.pressure(f), tip.of_pressure(f), -0.5);
+        linear_(from, wall) += share;
+        add_row(wall, region, local.pressure(f), tip.of_pressure(f), -share);
       }
     }
   }
