@@ -119,6 +119,15 @@ class Heat(unittest.TestCase):
     def test_nothing_is_found_where_all_is_well(self):
         self.assertEqual(check_heat.failures(self.P, [self.state()], self.history()), [])
 
+    def test_what_the_run_tells_is_granted_to_the_rock_and_no_more(self):
+        p = {**self.P, "conduction": "mpfa"}
+        for place, name in (("matrix", "heat.temperature[K]"), ("fractures", "water.temperature[K]")):
+            instant = self.state()
+            getattr(instant, place).cell_data[name][2] = 500.0
+            self.assertTrue(check_heat.bounds(p, [instant]))
+            self.assertTrue(check_heat.bounds(p, [instant], told_in_rock=99.9))
+            self.assertEqual(check_heat.bounds(p, [instant], told_in_rock=100.1) == [], place == "matrix")
+
     def test_what_is_planted_is_found(self):
         for place, name, value in (("matrix", "heat.temperature[K]", 299.99), ("matrix", "heat.temperature[K]", 400.01), ("fractures", "water.temperature[K]", 400.01)):
             instant = self.state()

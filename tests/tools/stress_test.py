@@ -77,6 +77,8 @@ class Checks(unittest.TestCase):
         self.found(check_pressure.failures(P, change("matrix", "pore.pressure[Pa]", 3, 1e8)), "above")
         board = change("matrix", "pore.pressure[Pa]", slice(None, None, 2), 1e5)
         self.found(check_pressure.failures(P, board), "peaks")
+        self.found(check_pressure.failures(P, board, strain=0.9), "peaks")
+        self.assertFalse(any("peaks" in failure for failure in check_pressure.failures(P, board, strain=1.1)))
 
     def test_a_load_that_has_drained_lowers_the_pressure_when_it_is_taken_away(self):
         """In a step that was not written the load was larger than ever since: what drained then is missing now. The lowest

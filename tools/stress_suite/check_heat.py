@@ -7,16 +7,23 @@ pressures and apertures where the rock does not take fluid by deformation (alpha
 
 import numpy as np
 
-from . import check_balance, check_pressure, heat, physics
+from . import check_balance, check_pressure, heat, physics, written
 
 PRECISION = 1e-8
 LAST_DIGIT = 2.2e-16  # of a number in double precision
+HALF_OF_LAST = 5e-3  # of a number with three digits
 
 
-def bounds(p, instants):
+def told(folder):
+    """K by which the run itself says that temperatures of the rock are beyond all around them; a note has three digits."""
+    return (1 + HALF_OF_LAST) * written.told(folder, "heat.temperature beyond its surroundings", r"by up to (\S+) K")
+
+
+def bounds(p, instants, told_in_rock=0.0):
     """Temperatures between those given. Conduction by MPFA may miss them by a part of the differences around, or in all of the
     rock, whose sides have the given temperatures: in the first short steps cells differ by much less than from their side, and a
-    flux from there with the wrong sign is a part of the flux that the side makes."""
+    flux from there with the wrong sign is a part of the flux that the side makes. By what the run's note tells,
+    `told_in_rock`, they may be beyond."""
     least, most = min(heat.given(p)), max(heat.given(p))
     on_sides = list(heat.sides(p).values())
     found = []
@@ -26,6 +33,8 @@ def bounds(p, instants):
         in_rock = max(rock.max(), *on_sides) - min(rock.min(), *on_sides) if on_sides else rock.max() - rock.min()
         for name, values, near in (("rock", rock, around[0]), ("fractures", fracture, around[1])):
             slack = PRECISION * most + (check_pressure.MISSED * np.maximum(near, in_rock) if p["conduction"] == "mpfa" else 0)
+            if name == "rock":
+                slack = np.maximum(slack, told_in_rock)
             over = np.maximum(values - most, least - values) - slack
             worst = int(np.argmax(over))
             if over[worst] > 0:
@@ -100,5 +109,5 @@ def balances(p, instants, history):
     return found
 
 
-def failures(p, instants, history):
-    return bounds(p, instants) + balances(p, instants, history)
+def failures(p, instants, history, told_in_rock=0.0):
+    return bounds(p, instants, told_in_rock) + balances(p, instants, history)

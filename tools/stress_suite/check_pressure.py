@@ -24,6 +24,8 @@ nothing in triangles that are not orthogonal, and raise and lower pressures cell
 Cells at walls that are deeper than what a step diffuses through take up fluid as their depths say, with every flow, monotone ones
 as well. This scatter is no alternation. Along fractures it is told by rising and falling with the depths throughout (or against them:
 what earlier steps have left); in the rock it stays when the differences have gone, and counts against those that there have been.
+Rock that is strained by more than 1 is turned inside out: its equations mean nothing any more, as the run says in a note, and the
+pressures that such strains squeeze out of cells are not judged.
 """
 
 import math
@@ -40,6 +42,7 @@ SHARE = 0.1
 SCATTER = 0.05
 IN_A_ROW = 5
 SAME_DEPTH = 1e-6
+INSIDE_OUT = 1  # strain
 
 
 def cells_of_edges(instant):
@@ -174,7 +177,7 @@ def differences_around(instant, pressure, fracture):
     return high[0] + low[0], high[1] + low[1]
 
 
-def failures(p, instants, history=None):
+def failures(p, instants, history=None, strain=0.0):
     found = []
     pairs = None
     been = 0.0  # differences until now
@@ -203,7 +206,7 @@ def failures(p, instants, history=None):
         if pressure.max() - pressure.min() > 1e-8 * size:
             been = max(been, pressure.max() - pressure.min()) if np.isfinite(conduction).all() else 0.0
             share = alternating(pressure, fracture, pairs, walls, been)
-            if share > SHARE and not has_uneven_weight(p):
+            if share > SHARE and not has_uneven_weight(p) and strain <= INSIDE_OUT:
                 found.append(f"alternating: {100 * share:.0f} % of the cells are peaks beside troughs at t = {instant.time:.6g} s")
         numbers = instant.fractures.cell_data["fracture"]
         for number in np.unique(numbers):

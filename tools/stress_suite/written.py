@@ -1,6 +1,7 @@
 """What a run has written: the fields of every step, and the tables."""
 
 import json
+import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -49,6 +50,12 @@ def iterations_of_steps(folder):
 def steps_solved_together(folder):
     """Accepted steps whose passes did not converge, and which `fallback: monolithic` has solved: as the run's note counts them."""
     return sum(note["steps"] for note in exit_record(folder).get("notes", []) if note["topic"] == "steps solved together")
+
+
+def told(folder, topic, number):
+    """The number that the run's note on a topic has where `number` (a regular expression with one group) finds it; 0 without it."""
+    found = [re.search(number, note["text"]) for note in exit_record(folder).get("notes", []) if note["topic"] == topic]
+    return max((float(match.group(1)) for match in found if match), default=0.0)
 
 
 def instants(folder):
