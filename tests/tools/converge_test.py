@@ -78,6 +78,15 @@ class Converge(unittest.TestCase):
         record = json.loads((self.folder / "out/converge.json").read_text())
         self.assertEqual([one["quantity"] for one in record["quantities"]], ["p_closed", "p_middle@0.05 s", "p_middle@largest"])
 
+    def test_a_section_may_be_replaced(self):
+        scene = ROOT / "configs/verification/terzaghi.yaml"
+        for settings in (["--set", "mesh.cells=[1, 10]"], ["--set", "mesh=", "--set", "mesh={kind: structured, cells: [1, 10]}"]):
+            done = subprocess.run([SPREKK, "converge", scene, "--of", "p_closed", *settings, "-o", self.folder / str(len(settings))],
+                                  capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        one, other = (json.loads((self.folder / folder / "converge.json").read_text())["quantities"][0]["value"] for folder in "24")
+        self.assertEqual(one, other)
+
     def test_mistakes_are_told(self):
         scene = ROOT / "configs/verification/terzaghi.yaml"
         for arguments, code, message in ((["--of", "p_close"], 2, "did you mean 'p_closed'?"),

@@ -230,6 +230,60 @@ time: {{end: 1 s, step: 1 s}}
         self.assertAlmostEqual(rates[1], rates[0], delta=1e-9 * abs(rates[0]))
         self.assertLess(rates[0], -0.1)
 
+    def test_layers_follow_their_surfaces(self):
+        """Hills and steps that lie away from the origin, in kilometres, and planes through them."""
+        box = "{x: [1000 m, 2000 m], y: [0 m, 500 m], z: [0 m, 100 m]}"
+        hill = 30e3 * 500 + 40 * 200 * math.sqrt(math.pi) * math.erf(2.5) * 500
+        for top, volume, within in (("(30 + 40*exp(-((x-1500)/200)^2)) m", hill, 0.02), ("if(x > 1200 && x < 1800, 70 m, 30 m)", 2.7e7, 1e-9),
+                                    ("(30 + 0.02*(x - 1000)) m", 2e7, 1e-9)):
+            with self.subTest(top):
+                kind = "{kind: structured, shape: hexahedra, cells: [40, 2, 40]}" if volume != 2e7 else "{size: 60 m}"
+                text = scene(kind, {}, box=box, pressure="1 Pa").replace("components:", "  \ncomponents:")
+                text = text.replace(f"  box: {box}\n", f"  box: {box}\n  regions: {{low: {{between: [0 m, \"{top}\"]}}}}\n")
+                text = text.replace("    storage: 0 1/Pa\n", "    storage: {low: 2 1/Pa, rock: 1 1/Pa}\n", 1)
+                results = self.run_text(text, "output={probes: {volume: {of: pore.pressure, region: low, take: integral}}}")
+                self.assertLess(abs(results["volume"][-1] / volume - 1), within)
+
+    def test_fluid_at_rest_stays_at_rest_beside_points(self):
+        """A pressure that is prescribed at a point, and one that is told there, have the weight of the fluid from the cell's centre."""
+        rest = "(1e5 - 9810*z/m) Pa"
+        at = "[47 m, 31 m, -19.5 m]"
+        text = scene("{size: 12 m}", {"f": [[20, 0, -60], [60, 0, 0], [60, 80, 0], [20, 80, -60]]}, pressure=rest, rock="mpfa",
+                     box="{x: [0 m, 100 m], y: [0 m, 80 m], z: [-60 m, 0 m]}",
+                     fluid="viscosity: 1 mPa*s, fluid_compressibility: 4.5e-10 1/Pa, fluid_density: 1000 kg/m^3, gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]")
+        text = text.replace("    storage: 0 1/Pa\n", "    storage: 1e-10 1/Pa\n    fluid_density: 1000 kg/m^3\n    gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]\n", 1)
+        text = text.replace("    initial_aperture: 0.1 mm\n", f"""    initial_aperture: 0.1 mm
+    initial_pressure: {rest}
+    prescribed: {{p: {{fracture: f, at: {at}, pressure: 291295 Pa}}}}
+    injection: {{q: {{fracture: f, at: [40.2 m, 51 m, -29.7 m], rate: 0 m^3/s}}}}
+""")
+        results = self.run_text(text, f"components.pore.initial_pressure={rest}")
+        self.assertLess(abs(results["conduit.p.rate"][-1]), 1e-12)
+        self.assertAlmostEqual(results["conduit.q.pressure"][-1], 1e5 + 9810 * 29.7, delta=1e-4)
+
+    def test_points_on_a_fracture_are_found_wherever_they_lie(self):
+        fracture = {"f": [[0, 0, 0.45], [1, 0, 0.45], [1, 1.2, 0.45], [0, 1.2, 0.45]]}
+        for x, y in ((0, 0), (1, 1.2), (0.5, 0.6), (0, 0.6)):
+            for mesh in ("{size: 0.4 m}", "{kind: structured, shape: hexahedra, cells: [1, 12, 2]}"):
+                text = scene(mesh, fracture).replace("    transmissivity: constant\n", "    transmissivity: constant\n    injection: "
+                                                     f"{{q: {{fracture: f, at: [{x} m, {y} m, 0.45 m], rate: 0 m^3/s}}}}\n")
+                probe = f"output={{probes: {{there: {{of: conduit.pressure, fracture: f, at: [{x} m, {y} m, 0.45 m]}}}}}}"
+                self.assertEqual(self.call("check", self.write(text), probe).returncode, 0)
+        far = text.replace("0.45 m], rate", "0.05 m], rate")
+        self.assertIn("there is no fracture at this place (the nearest one is 0.4 m away)", self.call("check", self.write(far)).stderr)
+
+    def test_two_pressures_at_one_point_are_refused(self):
+        twice = "{a: {fracture: one, at: [0.45 m, 0.57 m, 0.5 m], pressure: 1 Pa}, b: {fracture: one, at: [0.45 m, 0.57 m, 0.5 m], pressure: 2 Pa}}"
+        text = scene("{size: 0.3 m}", CUTS).replace("    transmissivity: constant\n", f"    transmissivity: constant\n    prescribed: {twice}\n")
+        self.assertEqual(self.call("check", self.write(text)).returncode, 2)
+
+    def test_two_point_fluxes_in_the_rock_tell_where_they_are_not_exact(self):
+        for mesh, told in (("{kind: structured, shape: hexahedra, cells: [3, 3, 3]}", False), ("{kind: structured, shape: tetrahedra, cells: [3, 3, 3]}", True)):
+            text = scene(mesh, {}, rock="tpfa").replace("{xx: 1 m^2, yy: 2 m^2, zz: 1.5 m^2, xy: 0.3 m^2, yz: -0.2 m^2, xz: 0.4 m^2}", "{xx: 1 m^2, yy: 2 m^2, zz: 1.5 m^2}")
+            self.assertEqual(any("two-point fluxes are not exact" in note for note in self.run_text(text).notes), told)
+            turned = scene(mesh, {}, rock="tpfa")
+            self.assertTrue(any("take matrix_flow/mpfa" in note for note in self.run_text(turned).notes))
+
     def test_what_enters_leaves(self):
         results = self.run_text(scene("{size: 0.25 m}", CUTS))
         flows = [values[-1] for name, values in results.history.items() if "outflow[" in name and "fluid" not in name]
