@@ -72,6 +72,8 @@ Refinement of_mesh(const Scene& scene) {
   add(scene, "mesh.fracture_size", mesh);
   add(scene, "mesh.tip_size", mesh);
   add(scene, "mesh.gap_size", mesh);
+  for (const Scene::Resolved& value : scene.resolved)
+    if (value.path.starts_with("geometry.sides.") && value.path.ends_with(".size")) add(scene, value.path, mesh);
   if (!scene.geometry.fractures.empty()) add(scene, "mesh.growth", mesh, steepest);
   return mesh;
 }

@@ -23,6 +23,7 @@ double shortest_size(const Geometry& geometry, const MeshOptions& options) {
   }
   for (const FractureGeometry& fracture : geometry.fractures)
     shortest = std::min({shortest, size_at(fracture, geometry, options), options.tip_size.value_or(shortest)});
+  for (const SidePart& part : geometry.side_parts) shortest = std::min(shortest, part.size.value_or(shortest));
   return shortest;
 }
 

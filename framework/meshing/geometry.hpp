@@ -68,6 +68,7 @@ struct SidePart {
   int side = 0;     ///< index into box_sides
   Point low, high;  ///< m; along the axis of the side not used
   Origin origin;
+  std::optional<double> size = std::nullopt;  ///< edge length on it, m; default as away from fractures
 };
 
 /// A box with fractures and regions in it, or a mesh file that holds everything. Region 0 of a box is what no region

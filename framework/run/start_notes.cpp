@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "framework/assembly/heeds_stages.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/linear/direct/blas_memory.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/medium.hpp"
@@ -60,9 +61,9 @@ void note_pockets(const Mesh& mesh, Notes& notes) {
   if (small.empty()) return;
   const Pocket& worst = small.front();
   notes.add("small pocket between fractures",
-            fmt::format("fractures {} enclose {:.2g} m^2 with {} cells at {}{} (values hardly vary in so few) lower "
+            fmt::format("fractures {} enclose {:.2g} {} with {} cells at {}{} (values hardly vary in so few) lower "
                         "mesh.fracture_size or the size of these fractures, or move one of them",
-                        names_of(mesh, worst.fractures), worst.measure, worst.cells, to_text(worst.center),
+                        names_of(mesh, worst.fractures), worst.measure, volume_unit, worst.cells, to_text(worst.center),
                         others(small.size() - 1, "pockets have few")));
 }
 

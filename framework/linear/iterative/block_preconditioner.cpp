@@ -33,7 +33,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
   }
 
   for (int part = 0; part < local; ++part) {
-    const UnknownBlock& block = *partition.parts[part].block;
+    const UnknownBlock& block = partition.parts[part].block;
     SparseMatrix a = sub_matrix(system.local, partition, part, part);
     a += elimination_.correction(system, partition, part);
     if (block.stabilization.size() > 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "framework/dense/lu.hpp"
@@ -30,6 +31,7 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
   const double spacing = low.size() == 0 ? 0 : (high - low).maxCoeff() * same_place;
 
   std::map<CellKey, std::vector<int>> cells;
+  const int local = static_cast<int>(partition.parts.size()) - 1;
   const std::vector<int>& unknowns = partition.local().unknowns;
   std::vector<bool> is_placed(unknowns.size(), false);
   for (const UnknownBlock& block : system.blocks) {
@@ -43,7 +45,9 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
           key.push_back(std::llround((block.coordinates(axis, entity) - low[axis]) / spacing));
       }
       for (int c = 0; c < block.components; ++c) {
-        const int place = partition.place_of[block.first + entity * block.components + c];
+        const int unknown = block.first + entity * block.components + c;
+        if (partition.part_of[unknown] != local) continue;
+        const int place = partition.place_of[unknown];
         cells[key].push_back(place);
         is_placed[place] = true;
       }
@@ -92,25 +96,68 @@ SparseMatrix columns_of_part(const SparseMatrix& rows, const Partition& partitio
   return result;
 }
 
+using Blocks = std::vector<const UnknownBlock*>;
+
+std::string owner_of(const UnknownBlock& block) { return block.name.substr(0, block.name.find('.')); }
+
+// The blocks of each part of the bulk.
+std::vector<Blocks> blocks_of_parts(const LinearSystem& system) {
+  std::vector<Blocks> parts;
+  for (const auto kind : {BlockKind::bulk_elliptic, BlockKind::bulk_elastic})
+    for (const UnknownBlock& block : system.blocks)
+      if (block.kind == kind && block.entities > 0) parts.push_back({&block});
+  const auto is_of_first_owner = [&](const Blocks& part) {
+    return part[0]->kind == BlockKind::bulk_elliptic && owner_of(*part[0]) == owner_of(*parts[0][0]);
+  };
+  if (parts.empty() || !std::ranges::all_of(parts, is_of_first_owner)) return parts;
+  Blocks potentials;
+  for (const Blocks& part : parts) potentials.push_back(part[0]);
+  for (const UnknownBlock& block : system.blocks)
+    if (block.kind == BlockKind::interface && block.components == 1 && block.may_store && block.entities > 0)
+      potentials.push_back(&block);
+  return {potentials};
+}
+
+// What a multigrid may know of a part.
+UnknownBlock joined(const Blocks& blocks, const std::vector<int>& place_of) {
+  if (blocks.size() == 1) return *blocks[0];
+  UnknownBlock whole;
+  whole.kind = blocks[0]->kind;
+  for (const UnknownBlock* block : blocks) {
+    whole.name += (whole.name.empty() ? "" : ", ") + block->name;
+    whole.entities += block->entities;
+  }
+  const Eigen::Index axes = blocks[0]->coordinates.rows();
+  const bool have_places = std::ranges::all_of(
+      blocks, [&](const UnknownBlock* block) { return block->has_coordinates() && block->coordinates.rows() == axes; });
+  if (have_places) whole.coordinates.resize(axes, whole.entities);
+  if (std::ranges::any_of(blocks, [](const UnknownBlock* block) { return block->stabilization.size() > 0; }))
+    whole.stabilization = Vector::Zero(whole.entities);
+  for (const UnknownBlock* block : blocks)
+    for (int entity = 0; entity < block->entities; ++entity) {
+      const int place = place_of[block->first + entity];
+      if (have_places) whole.coordinates.col(place) = block->coordinates.col(entity);
+      if (block->stabilization.size() > 0) whole.stabilization[place] = block->stabilization[entity];
+    }
+  return whole;
+}
+
 }  // namespace
 
 Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), -1), place_of(system.local.cols(), 0) {
   expect_sound(system);
-  for (const auto kind : {BlockKind::bulk_elliptic, BlockKind::bulk_elastic})
-    for (const UnknownBlock& block : system.blocks) {
-      if (block.kind != kind || block.entities == 0) continue;
-      const int part = static_cast<int>(parts.size());
-      parts.emplace_back();
-      parts.back().block = &block;
-      std::fill_n(part_of.begin() + block.first, block.entities * block.components, part);
-    }
-  parts.emplace_back();
+  const std::vector<Blocks> blocks = blocks_of_parts(system);
+  for (std::size_t part = 0; part < blocks.size(); ++part)
+    for (const UnknownBlock* block : blocks[part])
+      std::fill_n(part_of.begin() + block->first, block->entities * block->components, part);
+  parts.resize(blocks.size() + 1);
   for (std::size_t unknown = 0; unknown < part_of.size(); ++unknown) {
-    if (part_of[unknown] < 0) part_of[unknown] = static_cast<int>(parts.size()) - 1;
+    if (part_of[unknown] < 0) part_of[unknown] = static_cast<int>(blocks.size());
     std::vector<int>& members = parts[part_of[unknown]].unknowns;
     place_of[unknown] = static_cast<int>(members.size());
     members.push_back(static_cast<int>(unknown));
   }
+  for (std::size_t part = 0; part < blocks.size(); ++part) parts[part].block = joined(blocks[part], place_of);
   for (std::size_t row = 0; row < system.rows.size(); ++row) {
     SystemPart& part = parts[part_of[system.rows[row]]];
     part.owned.push_back(place_of[system.rows[row]]);

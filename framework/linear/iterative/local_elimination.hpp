@@ -1,5 +1,5 @@
-// How a preconditioner of the bulk treats the few unknowns on fractures: they are solved for exactly, and eliminated
-// from the blocks of the bulk approximately.
+// How a preconditioner of the bulk treats the unknowns on fractures: they are solved for exactly, and eliminated from
+// the blocks of the bulk approximately.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,17 @@ namespace sprekk {
 
 /// A block of the system for a multigrid cycle, or (the last part of a partition) all local unknowns together.
 struct SystemPart {
-  const UnknownBlock* block = nullptr;  ///< null for the local part
-  std::vector<int> unknowns;            ///< global numbers of all unknowns of the part, ascending
-  std::vector<int> owned;               ///< places in `unknowns` of those whose rows this process holds
-  std::vector<int> owned_rows;          ///< their places among this process's rows
+  UnknownBlock block;           ///< what a multigrid may know; without a name for the local part
+  std::vector<int> unknowns;    ///< global numbers of all unknowns of the part, ascending
+  std::vector<int> owned;       ///< places in `unknowns` of those whose rows this process holds
+  std::vector<int> owned_rows;  ///< their places among this process's rows
 };
 
 /// The parts of a system: bulk parts in the order of block Gauss-Seidel, scalar before elasticity, and then the local
 /// part (maybe empty), which also has the unknowns that belong to no block. A scalar block with its stabilization
-/// approximates the Schur complement of the elastic block, so it is solved first.
+/// approximates the Schur complement of the elastic block, so it is solved first. Where the bulk has the potentials of
+/// one owner alone, they are one part with those on fractures (of which balances are kept): a fracture that conducts
+/// well makes the potential nearly constant over its length, which only a multigrid of both sees.
 struct Partition {
   explicit Partition(const LinearSystem& system);
   std::vector<SystemPart> parts;

@@ -63,6 +63,14 @@ RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, 
   return modes;
 }
 
+// Aggregates of what is strongly coupled follow fractures that conduct well. Prolongators are smoothed with the whole
+// matrix: what is left of rows of multi-point fluxes without their small entries may have no positive diagonal.
+void follow_strong_couplings(ParameterList& list) {
+  constexpr double strong = 0.02;  // a_ij^2 over a_ii a_jj
+  list.set("aggregation: drop tol", strong);
+  list.set("sa: use filtered matrix", false);
+}
+
 // On several processes the coarse levels move to fewer and the coarsest to one: Debian's Amesos2 KLU2, the coarse
 // solver, is wrong on more than one.
 void set_multigrid_levels(ParameterList& list, int unknowns, bool has_coordinates, bool is_parallel) {
@@ -103,7 +111,9 @@ class MueLuMultigrid final : public Multigrid {
     list.set("multigrid algorithm", "sa");
     list.set("aggregation: type", "uncoupled");
     list.set("smoother: type", "RELAXATION");
-    list.sublist("smoother: params").set("relaxation: type", "Symmetric Gauss-Seidel");
+    const bool is_potential = block.kind == BlockKind::bulk_elliptic;
+    list.sublist("smoother: params").set("relaxation: type", is_potential ? "Gauss-Seidel" : "Symmetric Gauss-Seidel");
+    if (is_potential) follow_strong_couplings(list);
     set_multigrid_levels(list, unknowns, block.has_coordinates(), map->getComm()->getSize() > 1);
     ParameterList& user = list.sublist("user data");
     user.set("Nullspace", make_near_null_space(entities, block, map));

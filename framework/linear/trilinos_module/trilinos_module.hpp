@@ -47,7 +47,7 @@ class TrilinosModule {
   /// numbers of the entries of the result, and of the operand, that this process holds.
   virtual std::unique_ptr<DistributedMatrix> matrix(const SparseMatrix& rows, const std::vector<int>& row_ids,
                                                     const std::vector<int>& column_ids, int row_count) const = 0;
-  /// Smoothed aggregation (MueLu) with symmetric Gauss-Seidel smoothing; rigid-body modes span the near-null space of
+  /// Smoothed aggregation (MueLu) with Gauss-Seidel smoothing; rigid-body modes span the near-null space of
   /// elasticity. `rows`: this process's rows of the block, columns counted from the block's first unknown. `ids`: their
   /// numbers. Throws std::invalid_argument if this process holds only some components of an entity.
   virtual std::unique_ptr<Multigrid> multigrid(const SparseMatrix& rows, const std::vector<int>& ids,

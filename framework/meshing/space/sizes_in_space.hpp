@@ -8,8 +8,8 @@
 namespace sprekk {
 
 /// The wanted edge length, m. It is the smallest of: the far size; for each fracture its size plus growth times the
-/// distance from it; for the rim of each fracture, where it lies inside of the box, the tip size plus growth times the
-/// distance from the rim.
+/// distance from it, and the same for parts of sides; for the rim of each fracture, where it lies inside of the box,
+/// the tip size plus growth times the distance from the rim.
 class SizesInSpace {
  public:
   /// The geometry is that of a box and valid, except that sizes may still be absurdly small.
@@ -26,6 +26,7 @@ class SizesInSpace {
     double size, rim_size;
     std::vector<Line> rim;  ///< edges that lie inside of the box, where they ask for another size
     Point low, high;        ///< of the bounding box of the shape
+    int layers;             ///< of cells, on both sides of a fracture, or on the one inside of the box
   };
   Box box_;
   double far_size_, growth_;

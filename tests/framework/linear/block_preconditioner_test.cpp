@@ -80,8 +80,8 @@ TEST(LocalElimination, CorrectionIsTheSchurComplementWhenFractureCellsAreIndepen
   const LinearSystem system = problem.build();
   const Partition partition(system);
   ASSERT_EQ(partition.parts.size(), 3u);
-  EXPECT_EQ(partition.parts[0].block->name, "pore.pressure");
-  EXPECT_EQ(partition.parts[1].block->name, "rock.displacement");
+  EXPECT_EQ(partition.parts[0].block.name, "pore.pressure");
+  EXPECT_EQ(partition.parts[1].block.name, "rock.displacement");
   LocalElimination elimination;
   ASSERT_TRUE(elimination.factor(system, partition).solved);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "framework/mesh/geometry.hpp"
 
@@ -14,6 +15,7 @@ constexpr double open = std::numeric_limits<double>::infinity();
 struct PartInput {
   std::string on;
   std::array<std::vector<double>, dimension> ends;  ///< along each axis
+  std::optional<double> size;
 };
 
 Spec part_spec(const std::string& name, const Origin& origin, Geometry* geometry) {
@@ -27,8 +29,13 @@ Spec part_spec(const std::string& name, const Origin& origin, Geometry* geometry
                     {.unit = "m",
                      .doc = "Where it begins and ends along " + std::string(axis_names[axis]) +
                             "; without it, where the side does."});
+  spec.quantity("size", input->size,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Edge length on it, in unstructured meshes; by default the mesh's size. Where what is given "
+                        "changes at its border, fluxes converge slowly, and small cells help."});
   spec.check([input, name, origin, geometry](const Node& whole) {
-    SidePart part{name, 0, Point::Constant(-open), Point::Constant(open), origin};
+    SidePart part{name, 0, Point::Constant(-open), Point::Constant(open), origin, input->size};
     part.side = static_cast<int>(std::ranges::find(box_sides, input->on) - box_sides.begin());
     for (int axis = 0; axis < dimension; ++axis) {
       const std::vector<double>& ends = input->ends[axis];

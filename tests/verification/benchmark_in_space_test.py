@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""benchmark_in_space_test.py SPREKK [MPIEXEC]: flow of Berre and others, Adv. Water Resour. 147 (2021) 103759: case 1 (one fracture), case 2
+(a regular network, conducting and blocking) along the published lines, against the finest published solutions (tests/verification/reference).
+Case 3 (small features) and case 4 (52 fractures) take minutes and are not run here.
+
+Distances are root mean squares over that of the published heads. Twins: values that are disturbed by 1e-9, the axes in another order, GMRES
+in place of factors, and two processes."""
+
+import re
+import sys
+import unittest
+
+import numpy as np
+
+from scene_runs import ROOT, SceneRuns, on_two_processes
+
+CONFIGS = ROOT / "configs/verification"
+CONDUCTING = ["components.conduit.transmissivity_value=1 m^3", "components.conduit.normal_permeability_value=2e8 m/(Pa*s)"]
+
+
+def reference(name):
+    return np.loadtxt(ROOT / f"tests/verification/reference/{name}.csv", delimiter=",").T
+
+
+class BenchmarkInSpace(SceneRuns):
+    def heads(self, scene, line, places, *settings, processes=1):
+        """The heads at distances along a line of the scene, and the results of the run."""
+        results = self.run_scene(scene, "output.fields=false", *settings, processes=processes)
+        rows = np.genfromtxt(results.folder / f"line_{line}.csv", delimiter=",", names=True, deletechars="")
+        rows = rows[rows["time[s]"] == rows["time[s]"].max()]
+        return np.interp(places, rows["distance[m]"], rows["pore.pressure[Pa]"]), results
+
+    def distance(self, found, wanted):
+        distance = np.sqrt(((found - wanted)**2).sum() / (wanted**2).sum())
+        print(f"{self.id().split('.')[-1]}: {distance:.2e} from the finest published solution", file=sys.stderr)
+        return distance
+
+    def network(self, name, *settings, **how):
+        places, wanted = reference(name)
+        found, results = self.heads(CONFIGS / "berre_regular_network.yaml", "diagonal", places, *settings, **how)
+        return found, wanted, results
+
+    def test_one_fracture(self):
+        places, wanted = reference("berre_single_fracture")
+        found, results = self.heads(CONFIGS / "berre_single_fracture.yaml", "across", places)
+        self.assertLess(self.distance(found, wanted), 0.01)
+        through = [results.history[f"pore.{side}.outflow[m^3/s]"][-1] for side in ("inlet", "outlet")]
+        self.assertAlmostEqual(-through[1] / through[0], 1, delta=1e-9)
+
+    def test_a_network_that_blocks(self):
+        found, wanted, results = self.network("berre_blocking_network")
+        self.assertLess(self.distance(found, wanted), 0.016)
+        out = sum(results.history[f"pore.out_{side}.outflow[m^3/s]"][-1] for side in ("right", "back", "top"))
+        self.assertAlmostEqual(out, 3 / 16, delta=1e-9)
+
+    def test_a_network_that_conducts(self):
+        found, wanted, _ = self.network("berre_conducting_network", *CONDUCTING)
+        self.assertLess(self.distance(found, wanted), 0.03)
+
+    def test_other_fractures_are_another_answer(self):
+        found, wanted, _ = self.network("berre_blocking_network", *CONDUCTING)
+        self.assertGreater(self.distance(found, wanted), 0.3)
+
+    def test_values_that_are_disturbed(self):
+        found, _, _ = self.network("berre_blocking_network")
+        disturbed, _, _ = self.network("berre_blocking_network", f"components.conduit.normal_permeability_value={2 * (1 + 1e-9)!r} m/(Pa*s)")
+        np.testing.assert_allclose(disturbed, found, rtol=1e-8)
+
+    def test_axes_in_another_order(self):
+        """x, y, z become y, z, x; what enters and leaves is the same, and so are the heads on a mesh that is another one."""
+        text = (CONFIGS / "berre_regular_network.yaml").read_text()
+        names = {"x": "y", "y": "z", "z": "x", "left": "front", "right": "back", "front": "bottom", "back": "top", "bottom": "left", "top": "right"}
+        text = re.sub(r"\b(x|y|z)(?=: \[)|(?<=on: )(\w+)", lambda found: names[found.group()], text)
+        text = re.sub(r"\[([\d.]+ m), ([\d.]+ m), ([\d.]+ m)\]", r"[\3, \1, \2]", text)
+        places, wanted = reference("berre_blocking_network")
+        found, _ = self.heads(self.write(text), "diagonal", places)
+        self.assertLess(self.distance(found, wanted), 0.016)
+
+    def test_gmres(self):
+        found, _, _ = self.network("berre_blocking_network")
+        iterated, _, results = self.network("berre_blocking_network", "solver.type=belos")
+        np.testing.assert_allclose(iterated, found, rtol=1e-7)
+        self.assertLess(results.record["counters"]["linear: iterations"], 100)  # of two solves
+
+    @on_two_processes
+    def test_two_processes(self):
+        found, _, _ = self.network("berre_blocking_network")
+        divided, _, _ = self.network("berre_blocking_network", processes=2)
+        np.testing.assert_allclose(divided, found, rtol=1e-7)
+
+
+if __name__ == "__main__":
+    unittest.main()
