@@ -33,7 +33,6 @@ class FieldOfRun {
  private:
   struct Frame;
   const Frame& frame(std::size_t snapshot) const;
-  bool find_array(const std::filesystem::path& vtu, const std::string& field);
 
   std::filesystem::path folder_;
   std::vector<Snapshot> snapshots_;

@@ -124,8 +124,6 @@ class Newton {
   StepStatus follow_path(const StepTime& step, SearchMode mode);
   /// Releases held coefficients in small shares from the end of a path, with an attempt at each share.
   StepStatus release_coefficients(const StepTime& step, const std::vector<Vector>& start);
-  /// Releases the coefficients that PiecewiseSmooth::hold_coefficients holds up to `share`, and attempts to solve.
-  StepStatus attempt_with_share(const StepTime& step, double share);
   /// Motion that runs away.
   struct Loss {
     const Softening* part;  ///< whose places move

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "framework/invariants.hpp"
 #include "framework/schedule/newton.hpp"
 #include "framework/schedule/search_mode_guard.hpp"
 
@@ -108,12 +107,6 @@ StepStatus Newton::follow_paths(const StepTime& step, const std::vector<Vector>&
   return status;
 }
 
-StepStatus Newton::attempt_with_share(const StepTime& step, double share) {
-  SPREKK_EXPECT(share > 0 && share <= 1, share);
-  for (PiecewiseSmooth* part : pieces_) part->release_coefficients(share);
-  return attempt(step, options_.undamped);
-}
-
 /// Coefficients c_0^(1 - share) c^share, for shares that grow from 0, where the path has ended, to 1. Each solution is
 /// the start for the next share. After a failure the increment of the share is halved, after a success doubled.
 StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<Vector>& start) {
@@ -127,7 +120,8 @@ StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<
   std::string reason;
   while (share < 1 && increment >= smallest) {
     const double next = std::min(1.0, share + increment);
-    const StepStatus status = attempt_with_share(step, next);
+    for (PiecewiseSmooth* part : pieces_) part->release_coefficients(next);
+    const StepStatus status = attempt(step, options_.undamped);
     iterations += status.iterations;
     if (status.converged) {
       share = next;

@@ -203,35 +203,9 @@ void take_cells(const Node& whole, const std::vector<double>& cells, MeshOptions
 
 }  // namespace
 
-Spec mesh_spec(MeshOptions& options) {
-  struct Input {
-    std::string kind = "unstructured", shape = dimension == 2 ? "triangles" : "tetrahedra", division = "compact";
-    std::vector<double> cells;
-  };
-  const auto input = std::make_shared<Input>();
-  Spec spec("mesh", "How the geometry is cut into cells.");
-  spec.choice(
-      "kind", input->kind,
-      {{"unstructured", "cells of varying size, made by gmsh"},
-       {"structured",
-        dimension == 2
-            ? "equal rectangles, cut into triangles by alternating diagonals; fractures and edges of regions "
-              "must lie on their lines"
-            : "equal hexahedra, whole or cut by alternating diagonals; fractures and borders of regions must be "
-              "faces of cells"}},
-      {.doc = "What kind of mesh."});
-  const std::vector<std::pair<std::string, std::string>> shapes =
-      dimension == 2
-          ? std::vector<std::pair<std::string, std::string>>{{"triangles", "triangles only"},
-                                                             {"quadrilaterals",
-                                                              "structured: whole rectangles, without diagonals; "
-                                                              "unstructured: triangles are joined in pairs "
-                                                              "where that gives good convex cells; the others stay"}}
-          : std::vector<std::pair<std::string, std::string>>{
-                {"tetrahedra", "structured: six of each hexahedron; unstructured meshes have these alone"},
-                {"wedges", "structured: two of each hexahedron, with triangles at bottom and top"},
-                {"hexahedra", "structured: whole"}};
-  spec.choice("shape", input->shape, shapes, {.doc = "What the cells look like; a mesh file brings its own."});
+namespace {
+
+void declare_sizes(Spec& spec, MeshOptions& options) {
   spec.quantity("size", options.size,
                 {.unit = "m",
                  .range = positive(),
@@ -270,6 +244,40 @@ Spec mesh_spec(MeshOptions& options) {
                  .range = positive(),
                  .doc = "Gaps make edges no shorter than this; by default a " +
                         std::string(dimension == 2 ? "500th" : "20th") + " of the shortest size asked for."});
+}
+
+}  // namespace
+
+Spec mesh_spec(MeshOptions& options) {
+  struct Input {
+    std::string kind = "unstructured", shape = dimension == 2 ? "triangles" : "tetrahedra", division = "compact";
+    std::vector<double> cells;
+  };
+  const auto input = std::make_shared<Input>();
+  Spec spec("mesh", "How the geometry is cut into cells.");
+  spec.choice(
+      "kind", input->kind,
+      {{"unstructured", "cells of varying size, made by gmsh"},
+       {"structured",
+        dimension == 2
+            ? "equal rectangles, cut into triangles by alternating diagonals; fractures and edges of regions "
+              "must lie on their lines"
+            : "equal hexahedra, whole or cut by alternating diagonals; fractures and borders of regions must be "
+              "faces of cells"}},
+      {.doc = "What kind of mesh."});
+  const std::vector<std::pair<std::string, std::string>> shapes =
+      dimension == 2
+          ? std::vector<std::pair<std::string, std::string>>{{"triangles", "triangles only"},
+                                                             {"quadrilaterals",
+                                                              "structured: whole rectangles, without diagonals; "
+                                                              "unstructured: triangles are joined in pairs "
+                                                              "where that gives good convex cells; the others stay"}}
+          : std::vector<std::pair<std::string, std::string>>{
+                {"tetrahedra", "structured: six of each hexahedron; unstructured meshes have these alone"},
+                {"wedges", "structured: two of each hexahedron, with triangles at bottom and top"},
+                {"hexahedra", "structured: whole"}};
+  spec.choice("shape", input->shape, shapes, {.doc = "What the cells look like; a mesh file brings its own."});
+  declare_sizes(spec, options);
   spec.quantities("cells", input->cells,
                   {.unit = "",
                    .range = positive(),
