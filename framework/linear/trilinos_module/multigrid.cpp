@@ -111,7 +111,8 @@ class MueLuMultigrid final : public Multigrid {
     list.set("multigrid algorithm", "sa");
     list.set("aggregation: type", "uncoupled");
     list.set("smoother: type", "RELAXATION");
-    const bool is_potential = block.kind == BlockKind::bulk_elliptic;
+    // With a stabilization the block stands for a Schur complement, whose small entries are not of this kind.
+    const bool is_potential = block.kind == BlockKind::bulk_elliptic && block.stabilization.size() == 0;
     list.sublist("smoother: params").set("relaxation: type", is_potential ? "Gauss-Seidel" : "Symmetric Gauss-Seidel");
     if (is_potential) follow_strong_couplings(list);
     set_multigrid_levels(list, unknowns, block.has_coordinates(), map->getComm()->getSize() > 1);
