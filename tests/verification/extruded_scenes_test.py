@@ -1,0 +1,197 @@
+#!/usr/bin/python3
+"""extruded_scenes_test.py SPREKK [MPIEXEC]: each verification scene of flow alone, extruded into space, has its answer in the plane.
+
+(x, y) becomes (x, z): the mesh of the plane, node by node, becomes two layers of wedges (or hexahedra), each line of a fracture a row of
+rectangles. Sides in front and behind let nothing through. Expressions of y become those of z, rates are those over the depth."""
+
+import importlib.machinery
+import importlib.util
+import json
+import re
+import unittest
+
+import numpy as np
+
+from scene_runs import ROOT, SPREKK, SceneRuns, on_two_processes
+
+SCENES = ROOT / "configs"
+# What the scenes have that has no counterpart in space.
+LEFT_OUT = {"verification/theis.yaml": "wells/limited are in a plane alone",
+            "tutorial/well_limits.yaml": "wells/limited are in a plane alone"}
+# Settings of the plane and of space: coarser meshes, for seconds; and a point, which would become a line, becomes the whole fracture.
+EXTRUDED = {"verification/closed_box.yaml": ["components.conduit.injection.well.at=null", "components.conduit.injection.well.fracture=main"],
+            "verification/complex_network.yaml": ["mesh={size: 0.1 m, fracture_size: 0.04 m}"],
+            "verification/fracture_barrier.yaml": ["mesh={size: 0.2 m, fracture_size: 30 mm, growth: 0.2}"],
+            "verification/fracture_inflow.yaml": ["mesh={size: 0.2 m, fracture_size: 30 mm, growth: 0.2}"],
+            "verification/hydrocoin.yaml": [],
+            "verification/outcrop_network.yaml": ["mesh={size: 60 m, fracture_size: 30 m}"],
+            "verification/regular_network.yaml": ["mesh.size=0.06 m"],
+            "verification/single_mode_fracture.yaml": ["mesh.size=0.08 m"]}
+BALANCED = ("verification/single_mode_fracture.yaml",)  # as much leaves each side as enters it: the sums are round-off
+COUPLED = ("poromechanics", "matrix_heat", "fracture_heat", "contact")  # what a scene of flow alone has not
+LAYERS = 2
+
+loader = importlib.machinery.SourceFileLoader("turn_scene", str(ROOT / "tools/turn_scene"))
+turn_scene = importlib.util.module_from_spec(importlib.util.spec_from_loader("turn_scene", loader))
+loader.exec_module(turn_scene)
+
+
+def extrude_mesh(source, target, depth):
+    """A mesh file of a plane (gmsh's format 2.2) as one of so many layers of wedges and hexahedra."""
+    sections = {name: text.strip().splitlines() for name, text in re.findall(r"\$(\w+)\n(.*?)\$End\1", source.read_text(), re.DOTALL)}
+    nodes = [line.split() for line in sections["Nodes"][1:]]
+    number = {node[0]: i for i, node in enumerate(nodes)}
+    groups = [line.split(maxsplit=2) for line in sections["PhysicalNames"][1:]]
+    names = [f'{int(kind) + 1} {group} {name}' for kind, group, name in groups]
+    front = max(int(group) for _, group, _ in groups) + 1
+    names += [f'2 {front} "front"', f'2 {front + 1} "back"']
+    count = len(nodes)
+    elements = []
+    for line in sections["Elements"][1:]:
+        _, kind, tags, group, *rest = line.split()
+        corners = [number[node] for node in rest[int(tags) - 1:]]
+        for layer in range(LAYERS):
+            low, high = ([corner + at * count for corner in corners] for at in (layer, layer + 1))
+            if kind == "1":
+                elements.append((3, group, [*low, *high[::-1]]))
+            else:
+                elements.append((6 if kind == "2" else 5, group, [*high, *low]))  # x, z, y are left-handed
+        if kind != "1":
+            elements += [(kind, front, corners), (kind, front + 1, [corner + LAYERS * count for corner in corners])]
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", len(names), *names, "$EndPhysicalNames", "$Nodes", (LAYERS + 1) * count]
+    lines += [f"{i + layer * count + 1} {x} {layer * depth / LAYERS!r} {y}" for layer in range(LAYERS + 1) for i, (_, x, y, _) in enumerate(nodes)]
+    lines += ["$EndNodes", "$Elements", len(elements)]
+    lines += [f"{i} {kind} 2 {group} {group} {' '.join(str(corner + 1) for corner in corners)}" for i, (kind, group, corners) in enumerate(elements, 1)]
+    target.write_text("\n".join(map(str, [*lines, "$EndElements", ""])))
+
+
+def in_space(value, depth):
+    """A datum of the plane: y becomes z, a rate in m^2/s one over the depth."""
+    if isinstance(value, dict):
+        return {key: in_space(entry, depth) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [in_space(entry, depth) for entry in value]
+    number = turn_scene.number_of(value)
+    if number:
+        return f"{number[0] * depth!r} m^3/s" if number[1] == "m^2/s" else value
+    return re.sub(r"(?<![\w.])y(?![\w(])", "z", value)
+
+
+def extrude(parameters, mesh, depth):
+    """What has to change in a scene of the plane."""
+    changed = {"geometry.file": str(mesh)}
+    for path, text in parameters.items():
+        if path.partition(".")[0] != "components" or path.endswith((".type", ".fracture")):
+            continue
+        value = turn_scene.read_flow(text)
+        if in_space(value, depth) != value:
+            changed[path] = in_space(value, depth)
+    return turn_scene.nest(changed)
+
+
+def sides_of(places, cells):
+    """Edges with one cell, by side; what is at no side of the rectangle around is at the top."""
+    count = {}
+    for cell in cells:
+        for a, b in zip(cell, cell[1:] + cell[:1]):
+            count.setdefault(frozenset((a, b)), []).append((a, b))
+    low, high = places.min(0), places.max(0)
+    sides = {"left": [], "right": [], "bottom": [], "top": []}
+    for edges in count.values():
+        if len(edges) == 1:
+            x, y = places[list(edges[0])].T
+            at = [side for side, values, place in (("left", x, low[0]), ("right", x, high[0]), ("bottom", y, low[1])) if np.ptp(values) == 0 and values[0] == place]
+            sides[at[0] if at else "top"].append(edges[0])
+    return sides
+
+
+class ExtrudedScenes(SceneRuns):
+    def test_every_scene_of_flow_is_extruded_or_left_out_with_its_reason(self):
+        flows = set()
+        for folder in ("verification", "tutorial"):
+            for scene in (SCENES / folder).glob("*.yaml"):
+                text = scene.read_text()
+                if "matrix_flow/" in text and not any(word in text for word in COUPLED) and " z: [" not in text:
+                    flows.add(f"{folder}/{scene.name}")
+        self.assertEqual(flows, set(EXTRUDED) | set(LEFT_OUT))
+
+    def in_plane_and_space(self, name, *settings, processes=1):
+        """Both results, and the depth."""
+        scene = SCENES / name
+        settings = [*EXTRUDED[name], *settings, "output.fields=true", *(["output.probes=null"] if "probes:" in scene.read_text() else [])]
+        folder = self.folder / f"extruded_{next(self.numbers)}"
+        folder.mkdir()
+        # The mesh of a run as a file: of the scene in the plane, as of what is extruded.
+        parameters, places, cells, regions, fractures = turn_scene.read_scene(scene, settings, SPREKK)
+        if "geometry.file" in parameters:  # its groups of lines that are no sides
+            groups = re.findall(r'^1 \d+ "(\w+)"$', scene.with_suffix(".msh").read_text(), re.MULTILINE)
+            names = [name for name in groups if name not in ("left", "right", "bottom", "top")]
+        else:
+            names = turn_scene.read_fractures(scene, settings, SPREKK) if fractures else []
+        source = folder / "plane.msh"
+        turn_scene.write_msh(source, places, turn_scene.cells_by_region(parameters, cells, regions), sides_of(places, cells),
+                             {name: fractures[number] for number, name in enumerate(names)})
+        others = {key: None for key in ("box", "fractures") if any(path.startswith(f"geometry.{key}") for path in parameters)}
+        changed = {"geometry": {**others, "file": str(source)}, **({"mesh": None} if any(path.startswith("mesh.") for path in parameters) else {})}
+        flat = [scene, self.write(json.dumps(changed) + "\n", f"{folder.name}/plane.yaml")]
+        settings = [setting for setting in settings if not setting.startswith("mesh")]
+        plane = self.run_scene(flat, *settings)
+        sizes = plane.fields().sizes
+        depth = LAYERS * float(np.sqrt(np.median(sizes)))
+        extrude_mesh(source, folder / "extruded.msh", depth)
+        given = json.loads((plane.folder / "run.json").read_text())["scene"]["parameters"]
+        parameters = {path: entry["value"] for path, entry in given.items() if entry["origin"] != "default"}
+        (folder / "extruded.yaml").write_text(json.dumps(extrude(parameters, folder / "extruded.msh", depth), indent=1) + "\n")
+        return plane, self.run_scene([*flat, folder / "extruded.yaml"], *settings, processes=processes), depth
+
+    def assert_same(self, plane, space, depth, name, near=1e-9):
+        direction = np.array([0.8191520442889918, 0.573576436351046])  # along which no two centres are at the same place
+        for kind in ("matrix", "fractures"):
+            if kind == "fractures" and not self.has_fractures(plane):
+                continue
+            flat, solid = plane.fields(kind=kind), space.fields(kind=kind)
+            field = next((field for field in flat.names if field.endswith(".pressure")), None)
+            if not field:
+                continue  # a sealed fracture
+            self.assertEqual(len(solid.sizes), LAYERS * len(flat.sizes))
+            seen, wanted = solid.centres[:, [0, 2]], flat.centres[:, :2]
+            order = np.argsort(wanted @ direction)
+            sorted_places = (wanted @ direction)[order]
+            place = np.clip(np.searchsorted(sorted_places, seen @ direction), 1, len(order) - 1)
+            place -= np.abs(seen @ direction - sorted_places[place - 1]) < np.abs(seen @ direction - sorted_places[place])
+            size = np.ptp(wanted, axis=0).max()
+            self.assertLess(np.abs(seen - wanted[order[place]]).max(), 1e-9 * size, (name, kind))
+            scale = np.abs(flat[field]).max()
+            worst = np.abs(solid[field] - flat[field][order[place]]).max() / scale
+            print(f"{name}: {kind}, {len(solid.sizes)} cells: {worst:.1e}")
+            self.assertLess(worst, near, (name, kind))
+        columns = [column for column in plane.history if ".outflow[" in column]
+        largest = max((np.abs(plane.history[column]).max() for column in columns), default=0)
+        for column in columns if name not in BALANCED else ():
+            other = space.history[column.replace("m^2", "m^3")] / depth
+            self.assertLess(np.abs(other - plane.history[column]).max(), near * largest, (name, column))
+
+    @staticmethod
+    def has_fractures(results):
+        return next(results.folder.glob("fractures_*.vtu"), None) is not None
+
+    def test_each_has_the_answer_of_the_plane(self):
+        for name in EXTRUDED:
+            with self.subTest(name):
+                plane, space, depth = self.in_plane_and_space(name)
+                self.assert_same(plane, space, depth, name)
+
+    def test_so_it_has_by_finite_elements(self):
+        for name in ("verification/fracture_barrier.yaml", "verification/fracture_inflow.yaml"):
+            with self.subTest(name):
+                plane, space, depth = self.in_plane_and_space(name, "components.pore.type=matrix_flow/rt0")
+                self.assert_same(plane, space, depth, name + " by rt0")
+
+    @on_two_processes
+    def test_so_it_has_on_two_processes(self):
+        plane, space, depth = self.in_plane_and_space("verification/fracture_inflow.yaml", processes=2)
+        self.assert_same(plane, space, depth, "two processes")
+
+
+if __name__ == "__main__":
+    unittest.main()
