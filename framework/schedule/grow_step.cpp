@@ -42,7 +42,7 @@ Spec GrowOptions::spec() {
   spec.quantity("overshoot", overshoot,
                 {.range = positive(),
                  .doc = "A step is repeated with a smaller one when the load of a tip that has not grown yet passes "
-                        "that of growth by more than this part."});
+                        "that of growth by more than this part. Where growth belongs to the steps 2e-3 at most."});
   return spec;
 }
 
@@ -97,13 +97,21 @@ SolveOptions settle_options(const GrowOptions& options, const Growing& growing) 
 
 namespace {
 
+/// 1e-3 of K, to which first growth is found, is some 1e-4 of the pressure.
+constexpr double most_overshoot_within_steps = 2e-3;
+
 /// Decides what `update: auto` means. A component has one kind of growth in the whole run.
-GrowOptions decided(GrowOptions options, const Growing& growing, const ScheduleContext& context) {
-  if (options.update != automatic) return options;
+std::string decided_update(const GrowOptions& options, const Growing& growing, const ScheduleContext& context) {
+  if (options.update != automatic) return options.update;
   const bool is_held = context.growing && std::ranges::any_of(*context.growing, [&](const GrowStep* other) {
                          return other->options().component == options.component && !other->grows_within_step();
                        });
-  options.update = is_held || options.is_followed || !growing.may_grow_within_steps() ? after_step : within_step;
+  return is_held || options.is_followed || !growing.may_grow_within_steps() ? after_step : within_step;
+}
+
+GrowOptions decided(GrowOptions options, const Growing& growing, const ScheduleContext& context) {
+  options.update = decided_update(options, growing, context);
+  if (options.update == within_step) options.overshoot = std::min(options.overshoot, most_overshoot_within_steps);
   return options;
 }
 

@@ -16,7 +16,7 @@ inline constexpr const char *automatic = "auto", *within_step = "within_step", *
 struct GrowOptions {
   std::string component;
   std::vector<std::string> settle;
-  std::string update = after_step;
+  std::string update = automatic;
   bool is_followed = false;  ///< whether another step of the schedule solves or grows behind it
   int passes = 20;           ///< of repeat_step
   double cut = 1e-2;         ///< size of the steps after a growth event, over the standard step

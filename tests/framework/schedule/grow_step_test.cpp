@@ -316,7 +316,7 @@ TEST(GrowStep, RefusesToStandInsideOfIterationsAndSubcycles) {
 }
 
 TEST(GrowStep, WithinStepsRefusesWhatWouldChangeItsState) {
-  const std::string solve = "{solve: [rock]}", held = "{grow: tips, settle: [rock]}",
+  const std::string solve = "{solve: [rock]}", held = "{grow: tips, settle: [rock], update: after_step}",
                     within = "{grow: tips, settle: [rock], update: within_step}", late = "{when: 't > 5', steps: [";
   for (const std::string& schedule :
        {"[" + within + ", " + solve + "]", "[" + solve + ", " + within + ", " + within + "]",
