@@ -42,7 +42,7 @@ Spec GrowOptions::spec() {
   spec.quantity("overshoot", overshoot,
                 {.range = positive(),
                  .doc = "A step is repeated with a smaller one when the load of a tip that has not grown yet passes "
-                        "that of growth by more than this part. Where growth belongs to the steps 2e-3 at most."});
+                        "that of growth by more than this part."});
   return spec;
 }
 
@@ -97,9 +97,6 @@ SolveOptions settle_options(const GrowOptions& options, const Growing& growing) 
 
 namespace {
 
-/// 1e-3 of K, to which first growth is found, is some 1e-4 of the pressure.
-constexpr double most_overshoot_within_steps = 2e-3;
-
 /// Decides what `update: auto` means. A component has one kind of growth in the whole run.
 std::string decided_update(const GrowOptions& options, const Growing& growing, const ScheduleContext& context) {
   if (options.update != automatic) return options.update;
@@ -111,7 +108,6 @@ std::string decided_update(const GrowOptions& options, const Growing& growing, c
 
 GrowOptions decided(GrowOptions options, const Growing& growing, const ScheduleContext& context) {
   options.update = decided_update(options, growing, context);
-  if (options.update == within_step) options.overshoot = std::min(options.overshoot, most_overshoot_within_steps);
   return options;
 }
 

@@ -43,10 +43,8 @@ Spec GrowthOptions::spec() {
                  .doc = "Part of an explicit angle that is taken; less than 1 delays the zigzag."});
   spec.quantity("direction_tolerance", direction_tolerance,
                 {.range = strictly_between(0, 1), .doc = "Largest |K_II|/K_I at the end of an implicit increment."});
-  spec.quantity(
-      "arrest_tolerance", arrest_tolerance,
-      {.range = strictly_between(0, 1),
-       .doc = "Largest |K_eq/K_IC − 1| at the end of growth; 1e-3 at most for young kinks of growth within steps."});
+  spec.quantity("arrest_tolerance", arrest_tolerance,
+                {.range = strictly_between(0, 1), .doc = "Largest |K_eq/K_IC − 1| at the end of growth."});
   spec.quantity("front_tolerance", front_tolerance,
                 {.range = {.low = 1e-10, .high = 1e-3},
                  .doc = "Growth within steps: largest |ln(K_eq/K_IC)| of a tip that grows alone (of several tips the "
@@ -59,7 +57,7 @@ Spec GrowthOptions::spec() {
       "smallest", smallest,
       {.range = {.low = 0, .high = 1, .low_allowed = false, .high_allowed = false},
        .doc = "Shortest increment over the longest; a tip that would grow less waits, or less than a tenth of it where "
-              "K_eq is above the toughness by two tolerances. 1e-3 at most for growth within steps."});
+              "K_eq is above the toughness by two tolerances."});
   spec.quantity("longest", longest,
                 {.unit = "m",
                  .range = positive(),

@@ -14,10 +14,8 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double wanted_advance = 0.85;      ///< of an increment, of the fastest tip in one step
-constexpr double tolerance_of_kinks = 1e-3;  ///< |K_eq/K_IC - 1| of kinks that the mesh does not follow yet, at most
-constexpr double shortest_kink = 1e-3;       ///< of an increment, at most
-constexpr double wanted_turn = 0.08;         ///< rad, of the path at a tip in one step
+constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
+constexpr double wanted_turn = 0.08;     ///< rad, of the path at a tip in one step
 constexpr double least_turn =
     0.02;  ///< rad in the last two steps, below which the next one is not expected to turn far
 
@@ -36,9 +34,6 @@ void Tips::grow_within_steps() {
                        "lengths and directions follow from K_eq = K_IC and K_II = 0 at the end of each step",
                        "leave it out, or choose 'update: after_step'");
   grows_within_steps_ = true;
-  // K of a kink falls with the root of its length: by some percent over the first hundredth of a millimetre.
-  options_.growth.arrest_tolerance = std::min(options_.growth.arrest_tolerance, tolerance_of_kinks);
-  options_.growth.smallest = std::min(options_.growth.smallest, shortest_kink);
 }
 
 void Tips::note_input(Notes& notes) const {
