@@ -10,6 +10,7 @@ import unittest
 
 import numpy as np
 
+from hexahedra import TURN, mesh_file
 from scene_runs import ROOT, SPREKK, SceneRuns, on_two_processes, sprekk
 
 SIDES = ("left", "right", "front", "back", "bottom", "top")
@@ -90,34 +91,6 @@ time: {end: 1 s, step: 1 s}
 """
 
 
-TURN = np.linalg.qr(np.array([[1.0, 0.4, -0.3], [-0.2, 1.1, 0.6], [0.5, -0.3, 0.9]]))[0]  # about no axis
-
-
-def mesh_file(turn, cells=(4, 3, 3), seed=5):
-    """A gmsh file (2.2) of a unit cube of hexahedra, turned: a fracture `fault` in the middle, its sides `west` and `others`. Inner nodes
-    off the fracture are moved at random."""
-    shape = [n + 1 for n in cells]
-    grid = np.stack(np.meshgrid(*(np.linspace(0, 1, n) for n in shape), indexing="ij"), -1)
-    moves = np.random.default_rng(seed).uniform(-0.05, 0.05, grid.shape)
-    moves[[0, cells[0] // 2, -1]] = 0
-    moves[:, [0, -1]] = 0
-    moves[:, :, [0, -1]] = 0
-    number = np.arange(1, grid[..., 0].size + 1).reshape(shape)
-    nodes = "".join("{} {!r} {!r} {!r}\n".format(k, *map(float, x)) for k, x in zip(number.ravel(), (grid + moves).reshape(-1, 3) @ turn.T))
-    elements = []
-    for i, j, k in np.ndindex(*cells):
-        elements.append((5, 4, [number[i + a, j + b, k + c] for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]))
-    for axis in range(3):
-        planes = [(0, 2 if axis == 0 else 3), (cells[axis], 3)] + ([(cells[0] // 2, 1)] if axis == 0 else [])
-        for at, group in planes:
-            sheet = np.take(number, at, axis)
-            for i, j in np.ndindex(sheet.shape[0] - 1, sheet.shape[1] - 1):
-                elements.append((3, group, [sheet[i, j], sheet[i + 1, j], sheet[i + 1, j + 1], sheet[i, j + 1]]))
-    lines = "".join(f"{n} {kind} 2 {group} {group} {' '.join(map(str, at))}\n" for n, (kind, group, at) in enumerate(elements, 1))
-    return ('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n2 1 "fault"\n2 2 "west"\n2 3 "others"\n3 4 "rock"\n$EndPhysicalNames\n'
-            f"$Nodes\n{number.size}\n{nodes}$EndNodes\n$Elements\n{len(elements)}\n{lines}$EndElements\n")
-
-
 class FlowInSpace(SceneRuns):
     def run_text(self, text, *settings, **how):
         return self.run_scene(self.write(text, f"scene_{next(self.numbers)}.yaml"), *settings, **how)
@@ -141,9 +114,9 @@ class FlowInSpace(SceneRuns):
                 # What the walls hold back is some 1e-10 of the pressure.
                 self.assert_linear(self.run_text(scene(mesh, fractures)), 5e-10)
 
-    def from_file(self, turn):
-        self.write(mesh_file(turn), f"mesh_{next(self.numbers)}.msh")
-        text = scene("{}", {"fault": []}).replace("  box: {x: [0 m, 1 m], y: [0 m, 1.2 m], z: [0 m, 0.9 m]}\n  fractures:\n    fault: {points: []}\n",
+    def from_file(self, turn, rock="mpfa", more="", **mesh):
+        self.write(mesh_file(turn, **mesh), f"mesh_{next(self.numbers)}.msh")
+        text = scene("{}", {"fault": []}, rock=rock, more=more).replace("  box: {x: [0 m, 1 m], y: [0 m, 1.2 m], z: [0 m, 0.9 m]}\n  fractures:\n    fault: {points: []}\n",
                                                   f"  file: {max(self.folder.glob('mesh_*.msh'), key=lambda path: path.stat().st_mtime_ns).name}\n")
         sides = ", ".join(f"{side}: {{pressure: {LINEAR}}}" for side in SIDES)
         return text.replace("mesh: {}\n", "").replace(sides, f"west: {{pressure: {LINEAR}}}, others: {{pressure: {LINEAR}}}")
@@ -155,6 +128,15 @@ class FlowInSpace(SceneRuns):
             text = self.from_file(turn)
             self.assertEqual(self.call("check", self.write(text)).returncode, 0)
             self.assert_linear(self.run_text(text), 5e-10)
+
+    def test_velocities_are_exact_in_cells_with_bent_faces(self):
+        """-K grad p for a linear pressure."""
+        exact = -np.array([[1, 0.3, 0.4], [0.3, 2, -0.2], [0.4, -0.2, 1.5]]) @ [1, -2, 0.5]
+        mirror = TURN @ np.diag([1, -1, 1])
+        for turn, rock, wedges in ((np.eye(3), "mpfa", False), (TURN, "mpfa", True), (mirror, "rt0", False), (TURN, "rt0", True)):
+            with self.subTest(rock=rock, wedges=wedges):
+                velocity = self.run_text(self.from_file(turn, rock, wedges=wedges)).fields()["pore.velocity"]
+                self.assertLess(np.abs(velocity - exact).max(), 1e-8)
 
     def test_a_linear_pressure_disturbed_by_round_off_hardly_moves(self):
         one = self.run_text(scene("{size: 0.3 m}", CUTS))
