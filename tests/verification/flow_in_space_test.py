@@ -368,6 +368,56 @@ time: {{end: 1 s, step: 1 s}}
         results = self.run_text(text)
         self.assertAlmostEqual(sum(results[f"pore.{side}.outflow"][-1] for side in SIDES), 2e-3, delta=1e-12)
 
+    def test_inertia_is_exact_for_constant_flows_in_every_direction(self):
+        """Forchheimer's law, 12 mu v/h^3 + beta rho |v| v/h^2 = -grad p, in fractures that cross, with a linear pressure at their rims."""
+        gradient, beta, density, viscosity, h = np.array([-900.0, 400.0, -250.0]), 500.0, 1000.0, 1e-3, 1e-3
+        level = {"low": [[0, 0, 0.3], [1, 0, 0.6], [1, 1.2, 0.6], [0, 1.2, 0.3]], "up": [[0.3, 0, 0], [0.6, 1.2, 0], [0.6, 1.2, 0.9], [0.3, 0, 0.9]]}
+        along_axes = {"low": [[0, 0, 0.45], [1, 0, 0.45], [1, 1.2, 0.45], [0, 1.2, 0.45]], "up": [[0.5, 0, 0], [0.5, 1.2, 0], [0.5, 1.2, 0.9], [0.5, 0, 0.9]]}
+        pressure = "(2000 + " + " + ".join(f"({g!r})*{axis}/m" for axis, g in zip("xyz", map(float, gradient))) + ") Pa"
+        sides = ", ".join(f"{side}: {{pressure: {pressure}}}" for side in SIDES)
+        rectangles = "{kind: structured, shape: hexahedra, cells: [4, 4, 4]}"
+        for flow, mesh, fractures in (("mfd", "{size: 0.3 m}", level), ("mfd", "{size: 0.15 m}", level), ("mfd", rectangles, along_axes),
+                                      ("tpfa", rectangles, along_axes)):
+            for law in ("type: cubic", f"type: constant, transmissivity: {h**3 / 12} m^3"):
+                with self.subTest(flow=flow, mesh=mesh, law=law):
+                    lines = "".join(f"    {name}: {{points: {[[f'{float(c)!r} m' for c in point] for point in points]}}}\n".replace("'", "")
+                                    for name, points in fractures.items())
+                    results = self.run_text(f"""
+geometry:
+  box: {{x: [0 m, 1 m], y: [0 m, 1.2 m], z: [0 m, 0.9 m]}}
+  fractures:
+{lines}
+mesh: {mesh}
+components:
+  conduit:
+    type: fracture_flow/{flow}
+    viscosity: {viscosity} Pa*s
+    fluid_compressibility: 0 1/Pa
+    initial_aperture: {h} m
+    law: {{{law}, inertia: {beta} 1/m}}
+    boundary: {{{sides}}}
+schedule:
+  - solve: [conduit]
+time: {{end: 1 s, step: 1 s}}
+""")
+                    lines = results.fractures()
+                    self.assertLess(np.abs(lines["conduit.pressure"] - 2000 - lines.centres @ gradient).max(), 1e-6)
+                    exact = dict.fromkeys(SIDES, 0.0)
+                    for corners in map(np.array, fractures.values()):
+                        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+                        fall = -(gradient - gradient @ normal / (normal @ normal) * normal)
+                        linear_part, square_part = 12 * viscosity / h**3, beta * density / h**2
+                        speed = 2 * np.linalg.norm(fall) / (linear_part + math.sqrt(linear_part**2 + 4 * square_part * np.linalg.norm(fall)))
+                        self.assertGreater(speed * square_part / linear_part, 0.1)  # inertia matters
+                        for one, other in zip(corners, np.roll(corners, -1, axis=0)):
+                            middle = (one + other) / 2 / [1, 1.2, 0.9]
+                            axis = np.abs(middle - 0.5).argmax()
+                            out = np.cross(other - one, normal) / np.linalg.norm(normal)  # outward, of its length: corners turn about the normal
+                            exact[SIDES[2 * axis + round(middle[axis])]] += speed * (fall / np.linalg.norm(fall)) @ out
+                    for side in SIDES:
+                        found = results.history.get(f"conduit.{side}.outflow[m^3/s]", [0])[-1]
+                        self.assertAlmostEqual(found, exact[side], delta=1e-8 * max(map(abs, exact.values())), msg=side)
+
     def test_extruded_scenes_have_the_answers_of_the_plane(self):
         """Structured rectangles and triangles of a plane, as hexahedra and wedges: (x, y) becomes (x, z)."""
         # A conductor and a barrier that cross; the barrier ends in the rock.
