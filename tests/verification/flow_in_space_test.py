@@ -10,7 +10,7 @@ import unittest
 
 import numpy as np
 
-from hexahedra import TURN, mesh_file
+from hexahedra import TURN, mesh_file, moved_nodes
 from scene_runs import ROOT, SPREKK, SceneRuns, on_two_processes, sprekk
 
 SIDES = ("left", "right", "front", "back", "bottom", "top")
@@ -137,6 +137,20 @@ class FlowInSpace(SceneRuns):
             with self.subTest(rock=rock, wedges=wedges):
                 velocity = self.run_text(self.from_file(turn, rock, wedges=wedges)).fields()["pore.velocity"]
                 self.assertLess(np.abs(velocity - exact).max(), 1e-8)
+
+    def test_values_between_the_planes_of_bent_faces(self):
+        """At the middles of edges in the rock, where planes through bent faces leave gaps: along lines, and at probes."""
+        for turn, wedges in ((np.eye(3), False), (TURN, True)):
+            nodes = moved_nodes(turn, moved=0.09)
+            middles = (nodes[[1, 1, 3, 3], 1, 1:] + nodes[[1, 1, 3, 3], 2, 1:]).reshape(-1, 3) / 2
+            places = ["[" + ", ".join(f"{x!r} m" for x in map(float, at)) + "]" for at in middles]
+            probes = ", ".join(f"p{k}: {{of: pore.pressure, at: {at}}}" for k, at in enumerate(places))
+            line = f"across: {{of: pore.pressure, from: {places[0]}, to: {places[-1]}, points: 2}}"
+            results = self.run_text(self.from_file(turn, more=f"output: {{probes: {{{probes}}}, lines: {{{line}}}}}\n", moved=0.09, wedges=wedges))
+            found = np.array([results[f"p{k}"][-1] for k in range(len(places))])
+            self.assertLess(np.abs(found - linear(middles)).max(), 1e-8)
+            along = sprekk.read_table(results.folder / "line_across.csv")["pore.pressure[Pa]"][-2:]
+            self.assertLess(np.abs(along - linear(middles[[0, -1]])).max(), 1e-8)
 
     def test_a_linear_pressure_disturbed_by_round_off_hardly_moves(self):
         one = self.run_text(scene("{size: 0.3 m}", CUTS))
