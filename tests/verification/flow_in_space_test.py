@@ -280,6 +280,28 @@ time: {{end: 1 s, step: 1 s}}
             turned = scene(mesh, {}, rock="tpfa")
             self.assertTrue(any("take matrix_flow/mpfa" in note for note in self.run_text(turned).notes))
 
+    def test_ends_where_two_sides_meet_are_noted(self):
+        """A plane that ends on edges of the box, and one on the border of a part of a side, with a pressure on the side that they do not
+        belong to; with one on both sides there is nothing to say."""
+        edges = {"one": [[0, 0, 0], [0, 1.2, 0], [1, 1.2, 0.9], [1, 0, 0.9]]}
+        found = []
+        border = {"one": [[0, 0, 0.45], [1, 0, 0.45], [1, 1.2, 0.45], [0, 1.2, 0.45]]}
+        for fractures, parts, given, other in ((edges, "", "bottom", "left"), (border, "  sides: {low: {on: left, z: [0 m, 0.45 m]}}\nmesh:", "left", "low"),
+                                               (border, "  sides: {low: {on: left, z: [0 m, 0.45 m]}}\nmesh:", "low", "left")):
+            text = scene("{size: 0.4 m}", fractures, pressure=None).replace("mesh:", parts or "mesh:", 1)
+            start, end = text.split("  conduit:")
+            noted = []
+            for sides in ((given,), (given, other)):
+                conditions = ", ".join(f"{side}: {{pressure: 1 Pa}}" for side in sides)
+                said = self.call("check", self.write(start.replace("boundary: {}", "boundary: {right: {pressure: 0 Pa}}") + "  conduit:" +
+                                                     end.replace("boundary: {}", f"boundary: {{right: {{closed: true}}, {conditions}}}"),
+                                                     f"ends_{next(self.numbers)}.yaml"))
+                self.assertEqual(said.returncode, 0, said.stderr)
+                noted.append(f"the pressure at '{given}' has no effect there" in said.stdout + said.stderr)
+            self.assertFalse(noted[1])
+            found.append(noted[0])
+        self.assertEqual(sum(found), 2)  # of the two sides at the border of a part, one has the end
+
     def test_what_enters_leaves(self):
         results = self.run_text(scene("{size: 0.25 m}", CUTS))
         flows = [values[-1] for name, values in results.history.items() if "outflow[" in name and "fluid" not in name]

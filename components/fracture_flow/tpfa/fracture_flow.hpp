@@ -161,6 +161,8 @@ class FractureFlow : public Component,
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   /// Notes fractures that end on a side where the rock is open, if the scene says nothing about their ends.
   void note_ends(Notes& notes) const;
+  /// Notes a pressure on a side that does not hold at an end on its border, which belongs to the side beside it.
+  void note_ends_on_two_sides(Notes& notes) const;
   /// Notes fluid that begins with another pressure than that of the rock behind its walls.
   void note_start_at_walls(Notes& notes) const;
   /// Notes a fracture that passes the tight walls of another by a crossing whose fill is not said.
