@@ -1,4 +1,6 @@
 // The fluxes through faces at a state of the pressure, and the velocities that follow from them.
+#include <Eigen/LU>
+
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/products.hpp"
@@ -127,7 +129,8 @@ void MatrixFlow::report(std::vector<Quantity>& quantities) const {
 
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
-  // one.
+  // one. Where faces are bent, in space, that sum is V B v for a constant v, with B the sum of (x_face − x_cell) ⊗ area
+  // vector over V, which is 1 for flat faces.
   Vector velocity = Vector::Zero(dimension * mesh_.cell_count());
   if (discretized_mobility_ == 0) {  // nothing has flowed yet
     fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});
@@ -136,11 +139,16 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
   const Vector& fluxes = fluxes_of_step();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     if (!is_in_cell(c)) continue;
+    auto of_cell = velocity.segment<dimension>(dimension * c);
+    Tensor of_constants = Tensor::Zero();
     for (const int face : mesh_.cell_faces[c]) {
-      const double out = mesh_.face_cells[face][0] == c ? fluxes[face] : -fluxes[face];
-      velocity.segment<dimension>(dimension * c) +=
-          out * (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
+      const double out = mesh_.face_cells[face][0] == c ? 1 : -1;
+      const Point arm = mesh_.face_center[face] - mesh_.cell_center[c];
+      of_cell += out * fluxes[face] * arm / mesh_.cell_measure[c];
+      of_constants +=
+          out * mesh_.face_measure[face] / mesh_.cell_measure[c] * arm * mesh_.face_normal[face].transpose();
     }
+    if constexpr (dimension == 3) of_cell = of_constants.inverse() * of_cell;
   }
   exchange(mesh_, Location::cell, dimension, velocity);
   fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});

@@ -10,6 +10,7 @@ import unittest
 
 import numpy as np
 
+from hexahedra import TURN, mesh_file, moved_nodes
 from scene_runs import ROOT, SPREKK, SceneRuns, on_two_processes, sprekk
 
 SIDES = ("left", "right", "front", "back", "bottom", "top")
@@ -90,34 +91,6 @@ time: {end: 1 s, step: 1 s}
 """
 
 
-TURN = np.linalg.qr(np.array([[1.0, 0.4, -0.3], [-0.2, 1.1, 0.6], [0.5, -0.3, 0.9]]))[0]  # about no axis
-
-
-def mesh_file(turn, cells=(4, 3, 3), seed=5):
-    """A gmsh file (2.2) of a unit cube of hexahedra, turned: a fracture `fault` in the middle, its sides `west` and `others`. Inner nodes
-    off the fracture are moved at random."""
-    shape = [n + 1 for n in cells]
-    grid = np.stack(np.meshgrid(*(np.linspace(0, 1, n) for n in shape), indexing="ij"), -1)
-    moves = np.random.default_rng(seed).uniform(-0.05, 0.05, grid.shape)
-    moves[[0, cells[0] // 2, -1]] = 0
-    moves[:, [0, -1]] = 0
-    moves[:, :, [0, -1]] = 0
-    number = np.arange(1, grid[..., 0].size + 1).reshape(shape)
-    nodes = "".join("{} {!r} {!r} {!r}\n".format(k, *map(float, x)) for k, x in zip(number.ravel(), (grid + moves).reshape(-1, 3) @ turn.T))
-    elements = []
-    for i, j, k in np.ndindex(*cells):
-        elements.append((5, 4, [number[i + a, j + b, k + c] for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]))
-    for axis in range(3):
-        planes = [(0, 2 if axis == 0 else 3), (cells[axis], 3)] + ([(cells[0] // 2, 1)] if axis == 0 else [])
-        for at, group in planes:
-            sheet = np.take(number, at, axis)
-            for i, j in np.ndindex(sheet.shape[0] - 1, sheet.shape[1] - 1):
-                elements.append((3, group, [sheet[i, j], sheet[i + 1, j], sheet[i + 1, j + 1], sheet[i, j + 1]]))
-    lines = "".join(f"{n} {kind} 2 {group} {group} {' '.join(map(str, at))}\n" for n, (kind, group, at) in enumerate(elements, 1))
-    return ('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n2 1 "fault"\n2 2 "west"\n2 3 "others"\n3 4 "rock"\n$EndPhysicalNames\n'
-            f"$Nodes\n{number.size}\n{nodes}$EndNodes\n$Elements\n{len(elements)}\n{lines}$EndElements\n")
-
-
 class FlowInSpace(SceneRuns):
     def run_text(self, text, *settings, **how):
         return self.run_scene(self.write(text, f"scene_{next(self.numbers)}.yaml"), *settings, **how)
@@ -141,9 +114,9 @@ class FlowInSpace(SceneRuns):
                 # What the walls hold back is some 1e-10 of the pressure.
                 self.assert_linear(self.run_text(scene(mesh, fractures)), 5e-10)
 
-    def from_file(self, turn):
-        self.write(mesh_file(turn), f"mesh_{next(self.numbers)}.msh")
-        text = scene("{}", {"fault": []}).replace("  box: {x: [0 m, 1 m], y: [0 m, 1.2 m], z: [0 m, 0.9 m]}\n  fractures:\n    fault: {points: []}\n",
+    def from_file(self, turn, rock="mpfa", more="", **mesh):
+        self.write(mesh_file(turn, **mesh), f"mesh_{next(self.numbers)}.msh")
+        text = scene("{}", {"fault": []}, rock=rock, more=more).replace("  box: {x: [0 m, 1 m], y: [0 m, 1.2 m], z: [0 m, 0.9 m]}\n  fractures:\n    fault: {points: []}\n",
                                                   f"  file: {max(self.folder.glob('mesh_*.msh'), key=lambda path: path.stat().st_mtime_ns).name}\n")
         sides = ", ".join(f"{side}: {{pressure: {LINEAR}}}" for side in SIDES)
         return text.replace("mesh: {}\n", "").replace(sides, f"west: {{pressure: {LINEAR}}}, others: {{pressure: {LINEAR}}}")
@@ -155,6 +128,29 @@ class FlowInSpace(SceneRuns):
             text = self.from_file(turn)
             self.assertEqual(self.call("check", self.write(text)).returncode, 0)
             self.assert_linear(self.run_text(text), 5e-10)
+
+    def test_velocities_are_exact_in_cells_with_bent_faces(self):
+        """-K grad p for a linear pressure."""
+        exact = -np.array([[1, 0.3, 0.4], [0.3, 2, -0.2], [0.4, -0.2, 1.5]]) @ [1, -2, 0.5]
+        mirror = TURN @ np.diag([1, -1, 1])
+        for turn, rock, wedges in ((np.eye(3), "mpfa", False), (TURN, "mpfa", True), (mirror, "rt0", False), (TURN, "rt0", True)):
+            with self.subTest(rock=rock, wedges=wedges):
+                velocity = self.run_text(self.from_file(turn, rock, wedges=wedges)).fields()["pore.velocity"]
+                self.assertLess(np.abs(velocity - exact).max(), 1e-8)
+
+    def test_values_between_the_planes_of_bent_faces(self):
+        """At the middles of edges in the rock, where planes through bent faces leave gaps: along lines, and at probes."""
+        for turn, wedges in ((np.eye(3), False), (TURN, True)):
+            nodes = moved_nodes(turn, moved=0.09)
+            middles = (nodes[[1, 1, 3, 3], 1, 1:] + nodes[[1, 1, 3, 3], 2, 1:]).reshape(-1, 3) / 2
+            places = ["[" + ", ".join(f"{x!r} m" for x in map(float, at)) + "]" for at in middles]
+            probes = ", ".join(f"p{k}: {{of: pore.pressure, at: {at}}}" for k, at in enumerate(places))
+            line = f"across: {{of: pore.pressure, from: {places[0]}, to: {places[-1]}, points: 2}}"
+            results = self.run_text(self.from_file(turn, more=f"output: {{probes: {{{probes}}}, lines: {{{line}}}}}\n", moved=0.09, wedges=wedges))
+            found = np.array([results[f"p{k}"][-1] for k in range(len(places))])
+            self.assertLess(np.abs(found - linear(middles)).max(), 1e-8)
+            along = sprekk.read_table(results.folder / "line_across.csv")["pore.pressure[Pa]"][-2:]
+            self.assertLess(np.abs(along - linear(middles[[0, -1]])).max(), 1e-8)
 
     def test_a_linear_pressure_disturbed_by_round_off_hardly_moves(self):
         one = self.run_text(scene("{size: 0.3 m}", CUTS))
@@ -284,6 +280,28 @@ time: {{end: 1 s, step: 1 s}}
             turned = scene(mesh, {}, rock="tpfa")
             self.assertTrue(any("take matrix_flow/mpfa" in note for note in self.run_text(turned).notes))
 
+    def test_ends_where_two_sides_meet_are_noted(self):
+        """A plane that ends on edges of the box, and one on the border of a part of a side, with a pressure on the side that they do not
+        belong to; with one on both sides there is nothing to say."""
+        edges = {"one": [[0, 0, 0], [0, 1.2, 0], [1, 1.2, 0.9], [1, 0, 0.9]]}
+        found = []
+        border = {"one": [[0, 0, 0.45], [1, 0, 0.45], [1, 1.2, 0.45], [0, 1.2, 0.45]]}
+        for fractures, parts, given, other in ((edges, "", "bottom", "left"), (border, "  sides: {low: {on: left, z: [0 m, 0.45 m]}}\nmesh:", "left", "low"),
+                                               (border, "  sides: {low: {on: left, z: [0 m, 0.45 m]}}\nmesh:", "low", "left")):
+            text = scene("{size: 0.4 m}", fractures, pressure=None).replace("mesh:", parts or "mesh:", 1)
+            start, end = text.split("  conduit:")
+            noted = []
+            for sides in ((given,), (given, other)):
+                conditions = ", ".join(f"{side}: {{pressure: 1 Pa}}" for side in sides)
+                said = self.call("check", self.write(start.replace("boundary: {}", "boundary: {right: {pressure: 0 Pa}}") + "  conduit:" +
+                                                     end.replace("boundary: {}", f"boundary: {{right: {{closed: true}}, {conditions}}}"),
+                                                     f"ends_{next(self.numbers)}.yaml"))
+                self.assertEqual(said.returncode, 0, said.stderr)
+                noted.append(f"the pressure at '{given}' has no effect there" in said.stdout + said.stderr)
+            self.assertFalse(noted[1])
+            found.append(noted[0])
+        self.assertEqual(sum(found), 2)  # of the two sides at the border of a part, one has the end
+
     def test_what_enters_leaves(self):
         results = self.run_text(scene("{size: 0.25 m}", CUTS))
         flows = [values[-1] for name, values in results.history.items() if "outflow[" in name and "fluid" not in name]
@@ -385,6 +403,56 @@ time: {{end: 1 s, step: 1 s}}
         text = scene("{size: 0.3 m}", {}, pressure="0 Pa", rock_more="    wells: {feed: {at: [0.4 m, 0.7 m, 0.5 m], rate: 2e-3 m^3/s}}\n")
         results = self.run_text(text)
         self.assertAlmostEqual(sum(results[f"pore.{side}.outflow"][-1] for side in SIDES), 2e-3, delta=1e-12)
+
+    def test_inertia_is_exact_for_constant_flows_in_every_direction(self):
+        """Forchheimer's law, 12 mu v/h^3 + beta rho |v| v/h^2 = -grad p, in fractures that cross, with a linear pressure at their rims."""
+        gradient, beta, density, viscosity, h = np.array([-900.0, 400.0, -250.0]), 500.0, 1000.0, 1e-3, 1e-3
+        level = {"low": [[0, 0, 0.3], [1, 0, 0.6], [1, 1.2, 0.6], [0, 1.2, 0.3]], "up": [[0.3, 0, 0], [0.6, 1.2, 0], [0.6, 1.2, 0.9], [0.3, 0, 0.9]]}
+        along_axes = {"low": [[0, 0, 0.45], [1, 0, 0.45], [1, 1.2, 0.45], [0, 1.2, 0.45]], "up": [[0.5, 0, 0], [0.5, 1.2, 0], [0.5, 1.2, 0.9], [0.5, 0, 0.9]]}
+        pressure = "(2000 + " + " + ".join(f"({g!r})*{axis}/m" for axis, g in zip("xyz", map(float, gradient))) + ") Pa"
+        sides = ", ".join(f"{side}: {{pressure: {pressure}}}" for side in SIDES)
+        rectangles = "{kind: structured, shape: hexahedra, cells: [4, 4, 4]}"
+        for flow, mesh, fractures in (("mfd", "{size: 0.3 m}", level), ("mfd", "{size: 0.15 m}", level), ("mfd", rectangles, along_axes),
+                                      ("tpfa", rectangles, along_axes)):
+            for law in ("type: cubic", f"type: constant, transmissivity: {h**3 / 12} m^3"):
+                with self.subTest(flow=flow, mesh=mesh, law=law):
+                    lines = "".join(f"    {name}: {{points: {[[f'{float(c)!r} m' for c in point] for point in points]}}}\n".replace("'", "")
+                                    for name, points in fractures.items())
+                    results = self.run_text(f"""
+geometry:
+  box: {{x: [0 m, 1 m], y: [0 m, 1.2 m], z: [0 m, 0.9 m]}}
+  fractures:
+{lines}
+mesh: {mesh}
+components:
+  conduit:
+    type: fracture_flow/{flow}
+    viscosity: {viscosity} Pa*s
+    fluid_compressibility: 0 1/Pa
+    initial_aperture: {h} m
+    law: {{{law}, inertia: {beta} 1/m}}
+    boundary: {{{sides}}}
+schedule:
+  - solve: [conduit]
+time: {{end: 1 s, step: 1 s}}
+""")
+                    lines = results.fractures()
+                    self.assertLess(np.abs(lines["conduit.pressure"] - 2000 - lines.centres @ gradient).max(), 1e-6)
+                    exact = dict.fromkeys(SIDES, 0.0)
+                    for corners in map(np.array, fractures.values()):
+                        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+                        fall = -(gradient - gradient @ normal / (normal @ normal) * normal)
+                        linear_part, square_part = 12 * viscosity / h**3, beta * density / h**2
+                        speed = 2 * np.linalg.norm(fall) / (linear_part + math.sqrt(linear_part**2 + 4 * square_part * np.linalg.norm(fall)))
+                        self.assertGreater(speed * square_part / linear_part, 0.1)  # inertia matters
+                        for one, other in zip(corners, np.roll(corners, -1, axis=0)):
+                            middle = (one + other) / 2 / [1, 1.2, 0.9]
+                            axis = np.abs(middle - 0.5).argmax()
+                            out = np.cross(other - one, normal) / np.linalg.norm(normal)  # outward, of its length: corners turn about the normal
+                            exact[SIDES[2 * axis + round(middle[axis])]] += speed * (fall / np.linalg.norm(fall)) @ out
+                    for side in SIDES:
+                        found = results.history.get(f"conduit.{side}.outflow[m^3/s]", [0])[-1]
+                        self.assertAlmostEqual(found, exact[side], delta=1e-8 * max(map(abs, exact.values())), msg=side)
 
     def test_extruded_scenes_have_the_answers_of_the_plane(self):
         """Structured rectangles and triangles of a plane, as hexahedra and wedges: (x, y) becomes (x, z)."""

@@ -110,7 +110,7 @@ void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
     const double added = way.added / mesh_.ridges[at.ridges.front()].measure;
     const double passed = 1 / (way.kept + half.value * viscosity_[at.cells[i]] * added);
     half.by_aperture *= way.kept * passed * passed;
-    half.by_outflow *= way.kept * passed * passed;
+    for (auto& [point, by] : half.by_flux) by *= way.kept * passed * passed;
     half.value *= passed;
   }
 }
@@ -169,13 +169,24 @@ FractureFlow::FurtherDrop FractureFlow::further_drop(const Link& link) const {
     if (factors.empty()) continue;
     const Transmissivity t = transmissivity(cell);
     if (t.value == 0) continue;
+    // The resistance over a length, and its derivatives; inertia adds beta rho |v|/h^2.
+    double resistance = 1 / t.value, by_aperture = -t.by_aperture / (t.value * t.value), inertia = 0;
+    Speed at{0, {}};
+    if (has_inertia()) {
+      const HydraulicAperture h = aperture_of_inertia(cell, t);
+      at = speed(cell, link.ridge);
+      inertia = inertia_[cell] * options_.fluid_density / (h.value * h.value);
+      resistance += inertia * at.value;
+      by_aperture -= 2 * inertia * at.value / h.value * h.by_aperture;
+    }
     double own = 0;
     for (const auto& [ridge, factor] : factors) {
-      own += sign * factor / t.value * flux_.now()[ridge];
-      drop.by_flux.emplace_back(ridge, sign * factor / t.value);
+      own += sign * factor * flux_.now()[ridge];
+      drop.by_flux.emplace_back(ridge, sign * factor * resistance);
     }
-    drop.value += own;
-    if (t.by_aperture != 0) drop.by_aperture.emplace_back(cell, -own / t.value * t.by_aperture);
+    drop.value += own * resistance;
+    for (const auto& [ridge, by] : at.by_flux) drop.by_flux.emplace_back(ridge, own * inertia * by);
+    if (by_aperture != 0) drop.by_aperture.emplace_back(cell, own * by_aperture);
   }
   return drop;
 }
@@ -253,6 +264,9 @@ void FractureFlow::add_pattern(const Link& link, FluxRows& rows) const {
   for (const int point : junction.ridges)
     if (point != link.ridge) rows.by_flux.emplace_back(link.ridge, point, 0);
   for (const auto& [ridge, by] : further_drop(link).by_flux) rows.by_flux.emplace_back(link.ridge, ridge, 0);
+  if (!has_inertia()) return;
+  for (const int cell : junction.cells)
+    for (const auto& [ridge, by] : speed(cell, link.ridge).by_flux) rows.by_flux.emplace_back(link.ridge, ridge, 0);
 }
 
 void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const {

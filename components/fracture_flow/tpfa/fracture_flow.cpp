@@ -38,7 +38,8 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
       cumulative_(context.fields.add(
           mesh_, amounts_with(pressure_, context.name, "cumulative_balance", volume_unit,
                               "Fluid stored, injected, and flowed out through the outer boundary", 3))),
-      wet_(fracture_set(mesh_, options_.fractures, options_.fractures_origin)) {
+      wet_(fracture_set(mesh_, options_.fractures, options_.fractures_origin)),
+      outflows_(mesh_) {
   if (mesh_.fracture_cell_count() == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");

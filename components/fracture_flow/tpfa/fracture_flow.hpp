@@ -16,6 +16,7 @@
 #include "components/fracture_flow/tpfa/mean_along.hpp"
 #include "components/fracture_flow/tpfa/mimetic_drops.hpp"
 #include "components/fracture_flow/tpfa/options.hpp"
+#include "components/fracture_flow/tpfa/outflows.hpp"
 #include "components/fracture_flow/tpfa/stored_fluid.hpp"
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/heeds_stages.hpp"
@@ -160,6 +161,8 @@ class FractureFlow : public Component,
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   /// Notes fractures that end on a side where the rock is open, if the scene says nothing about their ends.
   void note_ends(Notes& notes) const;
+  /// Notes a pressure on a side that does not hold at an end on its border, which belongs to the side beside it.
+  void note_ends_on_two_sides(Notes& notes) const;
   /// Notes fluid that begins with another pressure than that of the rock behind its walls.
   void note_start_at_walls(Notes& notes) const;
   /// Notes a fracture that passes the tight walls of another by a crossing whose fill is not said.
@@ -185,11 +188,19 @@ class FractureFlow : public Component,
   double varying_weight(const Link& link) const;
   void assemble_density(Assembly& assembly, const FluxRows& rows) const;
   bool has_inertia() const { return !options_.law.inertia.is_zero(); }
-  Conductance inertia(const Link& link) const;
+  /// How fast fluid flows in a cell, m^2/s: the flux per width, with its derivatives by fluxes. In a plane that at one
+  /// of its ends, in space that of the whole cell.
+  struct Speed {
+    double value;
+    std::vector<std::pair<int, double>> by_flux;
+  };
+  Speed speed(int cell, int ridge, const Vector& flux) const;
+  /// As inertia takes it: held, or released in part.
+  Speed speed(int cell, int ridge) const;
+  HydraulicAperture aperture_of_inertia(int cell, const Transmissivity& transmissivity) const;
+  std::array<Conductance, 2> inertia(const Link& link) const;
   void add_inertia(const Link& link, const Conductance& conductance, FluxRows& rows) const;
   void slow_down(const Junction& junction, std::vector<JunctionFluxes::Half>& halves) const;
-  /// The size of a flux, and its derivative, m^2/s, as inertia takes it: held, or released in part.
-  std::array<double, 2> size_of_flux(double now, double held) const;
   void assemble_fluxes(Assembly& assembly, const StepTime& step) const;
   void add_row(const Link& link, const Conductance& conductance, FluxRows& rows) const;
   void add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const;
@@ -273,6 +284,7 @@ class FractureFlow : public Component,
   std::array<MeansAlong, 2> given_wall_permeability_;            ///< by Wall, m/(Pa s), one a cell
   std::vector<CrossingFill> crossing_fills_;                     ///< of each junction
   std::vector<Link> links_;
+  Outflows outflows_;
 
  protected:
   MimeticDrops drops_;  ///< of two-point fluxes none

@@ -3,6 +3,15 @@
 #include <algorithm>
 
 namespace sprekk::fracture_flow {
+namespace {
+
+using Derivatives = std::vector<std::pair<int, double>>;
+
+void add(double factor, const Derivatives& given, Derivatives& sum) {
+  for (const auto& [point, by] : given) sum.emplace_back(point, factor * by);
+}
+
+}  // namespace
 
 JunctionFluxes::JunctionFluxes(const Junction& junction, std::vector<Half> halves)
     : junction_(junction), halves_(std::move(halves)) {
@@ -25,22 +34,14 @@ JunctionFluxes::Flux::Part JunctionFluxes::part(int from, int to, double sign) c
   const Half &half = halves_[from], &hub = halves_[hub_];
   const double share = sign * half.value / hub.value;
   const Vector by_aperture = (sign * half.by_aperture - share * hub.by_aperture) / hub.value;
-  std::vector<std::pair<int, double>> by_flux;
-  add_outflow(from, sign * half.by_outflow / hub.value, by_flux);
-  add_outflow(hub_, -share * hub.by_outflow / hub.value, by_flux);
+  Derivatives by_flux;
+  add(sign / hub.value, half.by_flux, by_flux);
+  add(-share / hub.value, hub.by_flux, by_flux);
   return {point_between(hub_, to), {share, by_cell(by_aperture), by_flux}};
 }
 
-void JunctionFluxes::add_outflow(int place, double derivative, std::vector<std::pair<int, double>>& by_flux) const {
-  if (derivative == 0) return;
-  for (std::size_t k = 0; k < ends_.size(); ++k) {
-    if (ends_[k].first == place) by_flux.emplace_back(junction_.ridges[k], derivative);
-    if (ends_[k].second == place) by_flux.emplace_back(junction_.ridges[k], -derivative);
-  }
-}
-
 std::vector<std::pair<int, double>> JunctionFluxes::by_cell(const Vector& by_aperture) const {
-  std::vector<std::pair<int, double>> derivatives;
+  Derivatives derivatives;
   for (Eigen::Index k = 0; k < by_aperture.size(); ++k) derivatives.emplace_back(junction_.cells[k], by_aperture[k]);
   return derivatives;
 }
@@ -56,7 +57,7 @@ JunctionFluxes::Flux JunctionFluxes::flux(int place) const {
   for (int k = 0; k < static_cast<int>(halves_.size()); ++k) {
     const double by = (k == i ? to_j : 0) + (k == j ? to_i : 0) - to_i * to_j;
     by_aperture += by * halves_[k].by_aperture;
-    add_outflow(k, by * halves_[k].by_outflow, flux.conductance.by_flux);
+    add(by, halves_[k].by_flux, flux.conductance.by_flux);
   }
   flux.conductance.by_aperture = by_cell(by_aperture);
   return flux;

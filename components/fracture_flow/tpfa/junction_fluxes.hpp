@@ -26,12 +26,12 @@ struct Conductance {
 /// from pressures; the others follow from these fluxes: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
 class JunctionFluxes {
  public:
-  /// The conductance t_i, m^2/(Pa s), and its derivatives by the apertures of the junction's cells and by the flux out
-  /// of cell i into the junction.
+  /// The conductance t_i, m^2/(Pa s), and its derivatives by the apertures of the junction's cells and by the fluxes
+  /// through points.
   struct Half {
     double value;
     Vector by_aperture;
-    double by_outflow = 0;
+    std::vector<std::pair<int, double>> by_flux = {};
   };
   /// `halves`: one for each of the junction's cells.
   JunctionFluxes(const Junction& junction, std::vector<Half> halves);
@@ -53,8 +53,6 @@ class JunctionFluxes {
  private:
   Flux::Part part(int from, int to, double sign) const;
   int point_between(int one, int other) const;
-  /// Adds the derivative by the flux out of a cell, given by its place, as derivatives by the fluxes through points.
-  void add_outflow(int place, double derivative, std::vector<std::pair<int, double>>& by_flux) const;
   /// Derivatives by the apertures of the junction's cells, with their numbers.
   std::vector<std::pair<int, double>> by_cell(const Vector& by_aperture) const;
 

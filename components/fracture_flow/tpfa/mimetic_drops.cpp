@@ -15,13 +15,7 @@ std::vector<std::pair<int, double>> MimeticDrops::at(int cell, int ridge) const 
   for (int j = 0; j < static_cast<int>(ridges.size()); ++j) {
     const double factor = of_cell_[cell](place, j);
     if (factor == 0) continue;
-    // What flows out at a junction goes to each of the other cells there.
-    const int junction = junction_of_ridge_[ridges[j]];
-    const std::vector<int> one = {ridges[j]};
-    for (const int r : junction == none ? one : mesh_->junctions[junction].ridges) {
-      const std::vector<int>& cells = mesh_->ridges[r].cells;
-      if (std::ranges::count(cells, cell) > 0) factors.emplace_back(r, cells[0] == cell ? factor : -factor);
-    }
+    for (const auto& [r, sign] : outflows_.at(cell, ridges[j])) factors.emplace_back(r, sign * factor);
   }
   return factors;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/fracture_flow/tpfa/outflows.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fracture_flow {
@@ -35,7 +36,7 @@ class MimeticDrops {
  private:
   const Mesh* mesh_ = nullptr;
   std::vector<Eigen::MatrixXd> of_cell_;  ///< G, by places in FractureCell::ridges
-  std::vector<int> junction_of_ridge_;
+  Outflows outflows_;
 };
 
 }  // namespace sprekk::fracture_flow

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
@@ -18,6 +19,20 @@ constexpr double much_tighter = 0.01;
 constexpr double small_part_of_weight = 1e-2;  // of the fluid
 constexpr double part_that_may_vary = 1e-1;    // of its weight, where the density follows temperature and pressure
 constexpr double other_pressure = 1e-2;        // of the larger pressure at a wall
+
+/// The sides that meet at the end of a fracture, as indices into Mesh::side_names: those of the outer faces, beside
+/// both walls of its last cell, that have the end as one of their ridges.
+std::set<int> sides_at(const Mesh& mesh, const Ridge& end) {
+  std::set<int> sides;
+  for (const int wall : mesh.fracture_cells[end.cells[0]].faces)
+    for (const int node : mesh.face_nodes[wall])
+      for (const int face : mesh.node_faces[node]) {
+        const FaceNodes& nodes = mesh.face_nodes[face];
+        for (int k = 0; k < static_cast<int>(nodes.size()) && mesh.face_side[face] != none; ++k)
+          if (ridge_geometry(mesh.nodes, ridge_of(nodes, k)).center == end.center) sides.insert(mesh.face_side[face]);
+      }
+  return sides;
+}
 
 }  // namespace
 
@@ -49,6 +64,7 @@ void FractureFlow::note_input(Notes& notes) const {
                 fmt::format("two-point fluxes along fractures are not exact for linear pressures in {} of {} fracture "
                             "cells (their error there does not vanish with the size of cells) take fracture_flow/mfd",
                             count, mesh_.fracture_cell_count()));
+  note_ends_on_two_sides(notes);
   note_ends(notes);
   options_.crossings.note_input(mesh_, name(), notes);
   note_crossings(notes);
@@ -130,6 +146,23 @@ void FractureFlow::note_start_at_walls(Notes& notes) const {
         name(), own, mesh_.fractures[at.fracture].name, to_text(at.center), rock, name());
   }
   if (worst > 0) notes.add(name() + " and the rock out of balance at the start", text, worst);
+}
+
+void FractureFlow::note_ends_on_two_sides(Notes& notes) const {
+  for (const Ridge& end : mesh_.ridges) {
+    if (end.kind != Ridge::Kind::on_boundary || options_.ends.count(mesh_.side_names[end.side]) > 0) continue;
+    for (const int other : sides_at(mesh_, end)) {
+      const std::string &side = mesh_.side_names[end.side], &said = mesh_.side_names[other];
+      if (options_.boundary.count(said) == 0) continue;
+      notes.add(name() + ".boundary." + said + " beside " + side,
+                fmt::format("{}: the fracture '{}' ends at {} where the sides '{}' and '{}' meet, and belongs to '{}': "
+                            "the pressure at '{}' has no effect there, and nothing flows out (what holds at '{}' is "
+                            "not said) give '{}' under 'boundary' a pressure for '{}' too, or 'closed: true'",
+                            options_.boundary_origins.at(said).text(),
+                            mesh_.fractures[mesh_.fracture_cells[end.cells[0]].fracture].name, to_text(end.center),
+                            side, said, side, said, side, name(), side));
+    }
+  }
 }
 
 void FractureFlow::note_ends(Notes& notes) const {

@@ -92,6 +92,9 @@ int PointLocation::cell_at(const Point& x) const {
       is_in = depth_below_face(*mesh_, cell, k, x) >= -slack_ * mesh_->face_measure[faces[k]];
     if (is_in) return cell;
   }
+  // Between the planes of faces that are bent there are gaps, between the parts of cells there are none.
+  for (const int cell : cells_[number(at)])
+    if (parts_hold(*mesh_, cell, x, slack_)) return cell;
   return none;
 }
 

@@ -2,25 +2,13 @@
 
 #include <Eigen/Geometry>
 
+#include "framework/mesh/space/face_triangles.hpp"
+
 namespace sprekk {
 namespace {
 
 /// A face is horizontal whose normal is nearer than this to the vertical, rad: its strike would be round-off.
 constexpr double horizontal = 1e-6;
-
-Point mean(const std::vector<Point>& nodes, const FaceNodes& face) {
-  Point sum = Point::Zero();
-  for (const int node : face) sum += nodes[node];
-  return sum / face.size();
-}
-
-/// Calls use(a, b, c) for each triangle of a face: itself, or those between its edges and the mean of its nodes.
-template <class Use>
-void for_each_triangle(const std::vector<Point>& nodes, const FaceNodes& face, const Use& use) {
-  if (face.size() == 3) return use(nodes[face[0]], nodes[face[1]], nodes[face[2]]);
-  const Point middle = mean(nodes, face);
-  for (int k = 0; k < face.size(); ++k) use(nodes[face[k]], nodes[face.after(k)], middle);
-}
 
 }  // namespace
 

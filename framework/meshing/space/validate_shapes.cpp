@@ -10,6 +10,7 @@
 #include "framework/mesh/medium.hpp"
 #include "framework/meshing/space/flat_shape.hpp"
 #include "framework/meshing/space/region_borders.hpp"
+#include "framework/meshing/space/rim_gaps.hpp"
 #include "framework/meshing/space/sizes_in_space.hpp"
 
 namespace sprekk {
@@ -23,7 +24,7 @@ constexpr double least_gap = 1e-6;
 
 std::string quoted_name(const FractureGeometry& fracture) { return "fracture '" + fracture.name + "'"; }
 
-void validate_ellipse(const Box& box, const FractureGeometry& fracture) {
+void validate_ellipse(const Box& box, const FractureGeometry& fracture, double snap) {
   const auto& [center, one, other] = *fracture.ellipse;
   const std::string what = quoted_name(fracture);
   if (!center.allFinite() || !(std::min(one.norm(), other.norm()) > point_tolerance(box)) || !one.allFinite() ||
@@ -34,9 +35,12 @@ void validate_ellipse(const Box& box, const FractureGeometry& fracture) {
     Point reach = Point::Zero();
     reach[axis] = std::hypot(one[axis], other[axis]);
     const double over = std::max(box.low[axis] - center[axis], center[axis] - box.high[axis]) + reach[axis];
-    if (over < -least_gap * box.size().norm()) continue;
+    if (over < -std::max(snap, least_gap * box.size().norm())) continue;
     const bool is_low = center[axis] - box.low[axis] < box.high[axis] - center[axis];
-    throw InputError(fracture.origin, what + (over > 0 ? " leaves the box" : " touches the boundary with its rim"),
+    throw InputError(fracture.origin,
+                     what + (over > 0                       ? " leaves the box"
+                             : over < -point_tolerance(box) ? " nearly touches the boundary with its rim"
+                                                            : " touches the boundary with its rim"),
                      fmt::format("at {} it is {:.3g} m {}", to_text(center + (is_low ? -1 : 1) * reach), std::abs(over),
                                  over > 0 ? "outside" : "inside"),
                      "move it, choose another radius, or give it as a polygon that ends on the side");
@@ -160,10 +164,22 @@ void validate_pair(const FractureGeometry& a, const FractureGeometry& b, const F
   const auto lies_in = [&](const FlatShape& shape, const FlatShape& plane) {
     return std::ranges::all_of(shape.corners(), [&](const Point& x) { return std::abs(plane.height(x)) < tolerance; });
   };
-  if (Point at; (lies_in(one, other) || lies_in(other, one)) && common_place(one, other, tolerance, at))
+  const auto refuse_overlap = [&](const Point& at) {
     refuse("overlaps", "they lie in one plane and both cover " + to_text(at), "end one where they meet");
-  // The rim of an ellipse is known to the digits of its corners only.
-  if (a.ellipse || b.ellipse) return;
+  };
+  if (Point at; (lies_in(one, other) || lies_in(other, one)) && common_place(one, other, tolerance, at))
+    refuse_overlap(at);
+  if (a.ellipse || b.ellipse) {
+    const auto flat_of = [](const FractureGeometry& fracture, const FlatShape& shape) {
+      return fracture.ellipse ? FlatFracture{shape, Rim(*fracture.ellipse)} : FlatFracture{shape};
+    };
+    const FlatFracture first = flat_of(a, one), second = flat_of(b, other);
+    // Beside what the corners of the ellipse's polygon find.
+    if (lies_in(one, other) || lies_in(other, one))
+      if (const auto at = find_overlap(first, second, tolerance)) refuse_overlap(*at);
+    if (const auto gap = find_gap(first, second, tolerance, reach)) refuse_gap(gap->at, gap->width);
+    return;
+  }
   for (const auto& [shape, corners] : {std::pair(&one, &other.corners()), std::pair(&other, &one.corners())})
     for (const Point& corner : *corners)
       if (const double gap = shape->distance(corner); gap > tolerance && gap < reach) refuse_gap(corner, gap);
@@ -178,7 +194,7 @@ void validate_pair(const FractureGeometry& a, const FractureGeometry& b, const F
 
 void validate_fracture(const Box& box, const FractureGeometry& fracture, double snap) {
   if (fracture.ellipse)
-    validate_ellipse(box, fracture);
+    validate_ellipse(box, fracture, snap);
   else
     validate_polygon(box, fracture, snap);
 }

@@ -44,10 +44,8 @@ long MimeticDrops::cells_that_need_them(const Mesh& mesh) {
   return count;
 }
 
-MimeticDrops::MimeticDrops(const Mesh& mesh) : mesh_(&mesh), junction_of_ridge_(mesh.ridges.size(), none) {
+MimeticDrops::MimeticDrops(const Mesh& mesh) : mesh_(&mesh), outflows_(mesh) {
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) of_cell_.push_back(beside_two_point_fluxes(mesh, i));
-  for (std::size_t j = 0; j < mesh.junctions.size(); ++j)
-    for (const int ridge : mesh.junctions[j].ridges) junction_of_ridge_[ridge] = static_cast<int>(j);
 }
 
 }  // namespace sprekk::fracture_flow

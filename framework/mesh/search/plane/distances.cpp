@@ -10,6 +10,8 @@ double depth_below_face(const Mesh& mesh, int cell, int k, const Point& x) {
   return cross(b - a, x - a);
 }
 
+bool parts_hold(const Mesh&, int, const Point&, double) { return false; }
+
 double distance_to_fracture_cell(const Mesh& mesh, int cell, const Point& x) {
   const auto [from, to] = mesh.fracture_cells[cell].ridges;
   return distance(x, Segment{mesh.ridges[from].center, mesh.ridges[to].center});

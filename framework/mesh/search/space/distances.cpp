@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "framework/mesh/tetrahedra.hpp"
+
 namespace sprekk {
 namespace {
 
@@ -19,6 +21,20 @@ double depth_below_face(const Mesh& mesh, int cell, int k, const Point& x) {
   const int face = mesh.cell_faces[cell][k];
   const double outward = mesh.face_cells[face][0] == cell ? 1 : -1;
   return outward * mesh.face_normal[face].dot(mesh.face_center[face] - x) * mesh.face_measure[face];
+}
+
+bool parts_hold(const Mesh& mesh, int cell, const Point& x, double slack) {
+  if (mesh.cell_nodes[cell].size() == 4) return false;
+  const auto holds = [&](const Tetrahedron& part) {
+    for (int k = 0; k < 4; ++k) {
+      const auto corner = [&](int i) -> const Point& { return part.corners[(k + i) % 4]; };
+      const Point normal = (corner(2) - corner(1)).cross(corner(3) - corner(1));
+      const double inward = normal.dot(corner(0) - corner(1)) < 0 ? -1 : 1;
+      if (inward * normal.dot(x - corner(1)) < -slack * normal.norm()) return false;
+    }
+    return true;
+  };
+  return std::ranges::any_of(tetrahedra_of(mesh, cell), holds);
 }
 
 double distance_to_fracture_cell(const Mesh& mesh, int cell, const Point& x) {

@@ -7,11 +7,14 @@
 
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/meshing/conforming/space/outer_shells.hpp"
 
 namespace sprekk {
 namespace {
 
 constexpr double round_off = 1e-9;  // of the longest edge of a face: what is nearer lies on it
+/// Faces of a hole from which some ten tetrahedra are missing. A hole that is meant has more, or has a group.
+constexpr std::size_t few_faces = 24;
 
 /// Whether x lies on a face, off its corners.
 bool lies_on(const Point& x, const FaceNodes& face, const std::vector<Point>& nodes) {
@@ -27,14 +30,81 @@ bool lies_on(const Point& x, const FaceNodes& face, const std::vector<Point>& no
   return true;
 }
 
+/// Outer faces, with the boxes around them, by their lowest x.
+struct Outer {
+  int face;
+  Point low, high;
+};
+
+/// Throws InputError if edges of outer faces pass through outer faces, or a body lies in another one.
+void require_apart(const RawMesh& mesh, const FaceTable& faces, const std::vector<Outer>& outer, double widest,
+                   const std::vector<OuterShell>& shells) {
+  std::vector<Point> places;
+  const auto has = [](const FaceNodes& face, int node) {
+    return std::find(face.begin(), face.end(), node) != face.end();
+  };
+  for (const Outer& one : outer) {
+    const FaceNodes& nodes = faces.nodes(one.face);
+    for (int k = 0; k < nodes.size(); ++k) {
+      const int first = nodes[k], last = nodes.after(k);
+      if (first > last) continue;  // the other face at this edge has it the other way
+      const Point &from = mesh.nodes[first], &to = mesh.nodes[last], low = from.cwiseMin(to), high = from.cwiseMax(to);
+      auto item = std::ranges::lower_bound(outer, low.x() - widest, {}, [](const Outer& any) { return any.low.x(); });
+      for (; item != outer.end() && item->low.x() <= high.x(); ++item) {
+        const FaceNodes& face = faces.nodes(item->face);
+        if ((high.array() < item->low.array()).any() || (low.array() > item->high.array()).any() || has(face, first) ||
+            has(face, last) || !pierces(from, to, face, mesh.nodes))
+          continue;
+        places.push_back(0.5 * (from + to));
+        break;
+      }
+    }
+  }
+  const auto largest = std::ranges::max_element(shells, {}, &OuterShell::volume);
+  for (auto shell = shells.begin(); shell != shells.end(); ++shell) {
+    if (shell == largest || shell->volume <= 0) continue;
+    const Point& x = mesh.nodes[faces.nodes(shell->faces[0])[0]];
+    double count = 0;
+    for (auto other = shells.begin(); other != shells.end(); ++other)
+      if (other != shell) count += cover(x, other->faces, mesh.nodes, faces);
+    if (count > 0.5) places.push_back(x);
+  }
+  if (!places.empty())
+    throw InputError(
+        fmt::format("its cells do not fit together: they lie on other cells at {} place{}, as at {}. "
+                    "Remove the cells that are too many, or make the parts together, so that they have "
+                    "common faces",
+                    places.size(), places.size() == 1 ? "" : "s", to_text(places[0])));
+}
+
+/// Throws InputError for holes from which a few cells are missing, and returns a note for each larger one without a
+/// group.
+std::vector<std::string> note_holes(const RawMesh& mesh, const FaceTable& faces, const std::vector<bool>& has_group,
+                                    const std::vector<OuterShell>& shells) {
+  std::vector<std::string> notes;
+  for (const OuterShell& shell : shells) {
+    if (shell.volume >= 0 || std::ranges::any_of(shell.faces, [&](int face) { return has_group[face]; })) continue;
+    Point center = Point::Zero();
+    for (const int face : shell.faces)
+      center += face_geometry(mesh.nodes, faces.nodes(face)).center / static_cast<double>(shell.faces.size());
+    if (shell.faces.size() <= few_faces)
+      throw InputError(
+          fmt::format("cells are missing: a hole of {} faces around {} is in no group. Add the cells, or give the "
+                      "faces of a hole that is meant a group of surfaces",
+                      shell.faces.size(), to_text(center)));
+    notes.push_back(
+        fmt::format("the mesh has a hole of {} faces around {} that no group of surfaces names: it belongs "
+                    "to the side 'boundary' (no cell covers it) give it a group, to set its conditions",
+                    shell.faces.size(), to_text(center)));
+  }
+  return notes;
+}
+
 }  // namespace
 
-std::vector<std::string> require_conforming(const RawMesh& mesh, const FaceTable& faces, const std::vector<bool>&) {
+std::vector<std::string> require_conforming(const RawMesh& mesh, const FaceTable& faces,
+                                            const std::vector<bool>& has_group) {
   // Where cells do not fit together, there are outer faces on which nodes of other ones lie.
-  struct Outer {
-    int face;
-    Point low, high;
-  };
   std::vector<Outer> outer;
   std::vector<char> is_on_outer(mesh.nodes.size(), 0);
   double widest = 0;
@@ -67,13 +137,17 @@ std::vector<std::string> require_conforming(const RawMesh& mesh, const FaceTable
       break;
     }
   }
-  if (count == 0) return {};
-  throw InputError(fmt::format(
-      "its cells do not fit together: {} node{} on outer faces of other cells, as at {}; nothing passes from one cell "
-      "to "
-      "the other there. Join nodes at one place (gmsh: Mesh > Coherence), and make the parts together, so that they "
-      "have common faces; where a fracture is meant, give it one group of surfaces",
-      count, count == 1 ? " lies" : "s lie", to_text(at)));
+  if (count > 0)
+    throw InputError(fmt::format(
+        "its cells do not fit together: {} node{} on outer faces of other cells, as at {}; nothing passes from one "
+        "cell "
+        "to "
+        "the other there. Join nodes at one place (gmsh: Mesh > Coherence), and make the parts together, so that they "
+        "have common faces; where a fracture is meant, give it one group of surfaces",
+        count, count == 1 ? " lies" : "s lie", to_text(at)));
+  const std::vector<OuterShell> shells = outer_shells(mesh.nodes, faces);
+  require_apart(mesh, faces, outer, widest, shells);
+  return note_holes(mesh, faces, has_group, shells);
 }
 
 }  // namespace sprekk
