@@ -321,11 +321,10 @@ StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
     SPREKK_ASSERT(update.size() == system_.size(), update.size(), system_.size());
     if (seen.take(discrete_state())) state_has_changed_ = true;
     const bool searches = seen.is_cycling || iteration > undamped || undamped == 0;
-    if (searches && until != Until::end && undamped > 0 && state_has_changed_) {
+    if (searches && until == Until::search && undamped > 0 && state_has_changed_) {
       was_left_ = true;
       return fails("the discrete state does not settle");
     }
-    if (until == Until::far && relative_size(update, check) > 1) return fails("an update is larger than the fields");
     double length = 1;
     check = take_step(step, update, searches, length);
     recent_.push_back(check);

@@ -36,11 +36,6 @@ struct NewtonOptions {
 /// relative residuals. If the first attempt fails, a second one from the same start asks for descent from its first
 /// iteration: full steps may have led to a place from which no descent leads back.
 ///
-/// Before that, where the call solves for all that moves, shorter steps from the same start are made ever longer. Fluid
-/// may part the walls around blocks of rock, which then only its flow holds, the less the longer the step: full updates
-/// throw them far away. If that does not lead to the whole step, the call ends with the size to which it has led
-/// (StepStatus::retry_dt), and a call with this size starts from there.
-///
 /// If the second attempt fails, and the discrete state has changed or a part is nonlinear in pieces, a third attempt
 /// follows a path. Contact is piecewise linear, so residual(x) = s residual(x0) is a polygonal line that bends where
 /// the discrete state changes. The path is followed from s = 1 down to 0, each piece with its own derivatives up to the
@@ -107,17 +102,13 @@ class Newton {
   bool take_coupled_sums(ResidualCheck& check);
   bool may_take_coupled_sums() const;
   /// When an attempt ends. `end`: after all iterations. `search`: where a line search would begin, if the discrete
-  /// state has changed by then. `far`: there, or where an update is larger than the fields.
-  enum class Until { end, search, far };
+  /// state has changed by then.
+  enum class Until { end, search };
   // newton_rungs.cpp: all attempts, until one converges, and what they consist of.
   StepStatus search(const StepTime& step, const std::vector<Vector>& start);
   StepStatus attempt_also_without_conditions(const StepTime& step, const std::vector<Vector>& start, Until until);
   StepStatus finish_with_own_derivatives(const StepTime& step, StepStatus status);
   bool is_nonlinear_in_pieces() const;
-  /// If it fails, the fields are those of the start.
-  StepStatus lengthen_step(const StepTime& step, const std::vector<Vector>& start);
-  /// Whether a solution of the step is known from a call with a longer one.
-  bool has_reached(const StepTime& step) const;
   bool may_follow_path(const StepTime& step) const;
   StepStatus follow_paths(const StepTime& step, const std::vector<Vector>& start, StepStatus status);
   /// Looks for a solution with states that the present solution has left (keep_states.cpp). Returns the number of
@@ -179,11 +170,6 @@ class Newton {
   std::optional<Loss> lost_;           ///< where the last path has ended
   std::optional<Loss> passed_;         ///< by the solution of the step `passed_in_`
   StepTime passed_in_;
-  /// The longest step that `lengthen_step` has solved where it has failed, and its solution.
-  struct Reached {
-    StepTime step;
-    std::vector<Vector> values;
-  } reached_;
   StepTime last_failed_path_;  ///< the last step whose path failed; a hardly shorter step does not try again
   const Stabilization* stabilization_ = nullptr;
   const Responses* responses_ = nullptr;

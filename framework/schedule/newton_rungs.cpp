@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "framework/schedule/newton.hpp"
 #include "framework/schedule/search_mode_guard.hpp"
@@ -12,13 +11,6 @@ namespace sprekk {
 
 StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start) {
   state_has_changed_ = false;
-  if (has_reached(step)) {
-    const SearchModeGuard guard(SearchMode::without_shortcuts, SearchMode::with_shortcuts, pieces_);
-    set(reached_.values);
-    StepStatus status = attempt(step, options_.undamped, Until::search);
-    if (status.converged) return status;
-    set(start);
-  }
   // 1. Full steps, as active sets usually settle by themselves.
   StepStatus status = attempt_also_without_conditions(step, start, Until::search);
   if (status.converged) return status;
@@ -34,17 +26,10 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     try_again(
         [&] { return finish_with_own_derivatives(step, attempt_also_without_conditions(step, start, Until::end)); });
   if (status.converged || status.iterations <= 1) return status;
-  // 3. From shorter steps.
-  if (least_iterations_ == 0) {
-    const std::string reason = status.reason;
-    try_again([&] { return lengthen_step(step, start); });
-    if (!status.converged) status.reason = reason + "; then " + status.reason;
-  }
-  if (status.converged || status.retry_dt > 0) return status;
-  // 4. Descent from the first iteration on: full steps may have led to where no descent leads back from.
+  // 3. Descent from the first iteration on: full steps may have led to where no descent leads back from.
   if (options_.undamped > 0) try_again([&] { return finish_with_own_derivatives(step, attempt(step, 0)); });
   if (status.converged || !may_follow_path(step)) return status;
-  // 5. The path from piece to piece.
+  // 4. The path from piece to piece.
   return follow_paths(step, start, std::move(status));
 }
 
@@ -74,49 +59,6 @@ StepStatus Newton::finish_with_own_derivatives(const StepTime& step, StepStatus 
   StepStatus finished = attempt(step, options_.undamped);
   finished.iterations += status.iterations;
   return finished;
-}
-
-/// Steps of share · dt from the accepted state, with the data of the whole step, for shares that grow from nearly 0 to
-/// 1. Over a short time flow holds all that moves. Each solution is the start for the next share, and has to be near
-/// it: where an update is larger than the fields, the share is too large.
-StepStatus Newton::lengthen_step(const StepTime& step, const std::vector<Vector>& start) {
-  constexpr double first_share = 1.0 / 64, growth = 4, least_growth = 1.2;
-  std::vector<Vector> reached = start;
-  int iterations = 0;
-  double share = 0, factor = growth, begin = first_share;
-  while (true) {
-    const double next = share == 0 ? begin : std::min(1.0, share * factor);
-    SPREKK_ASSERT(next > share, share, factor);
-    set(reached);
-    const StepTime part = next == 1 ? step : StepTime{step.start, next * step.dt, step.start + next * step.dt};
-    StepStatus status = attempt(part, options_.undamped, share == 0 ? Until::search : Until::far);
-    iterations += status.iterations;
-    if (status.converged && next == 1) return {true, "", iterations};
-    if (status.converged) {
-      reached = values();
-      share = next;
-      continue;
-    }
-    if (share == 0 && begin == first_share) {
-      begin *= first_share;
-      continue;
-    }
-    factor = std::sqrt(factor);
-    if (share > 0 && factor >= least_growth) continue;
-    set(start);
-    StepStatus failed{false, fmt::format("from shorter steps no further than {:.2g} of it: {}", share, status.reason),
-                      iterations};
-    if (share == 0) return failed;
-    failed.retry_dt = share * step.dt;
-    reached_ = {{step.start, failed.retry_dt, step.start + failed.retry_dt}, std::move(reached)};
-    return failed;
-  }
-}
-
-bool Newton::has_reached(const StepTime& step) const {
-  constexpr double same = 1e-9;
-  return reached_.step.dt > 0 && reached_.step.start == step.start &&
-         std::abs(reached_.step.dt - step.dt) <= same * step.dt;
 }
 
 /// A path that has failed is tried again in a much shorter step only.

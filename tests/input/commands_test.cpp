@@ -133,11 +133,16 @@ TEST(Show, IsASceneThatMeansTheSame) {
 }
 
 TEST(Check, AcceptsTheScenesThatComeAlong) {
-  // Scenes without dimensions, and a network that encloses small pockets.
-  const std::map<std::string, std::string> notes = {
-      {"biot_manufactured", "one without dimensions"},     {"complex_network", "one without dimensions"},
-      {"outcrop_network", "enclose 1.7 m^2 with 3 cells"}, {"regular_network", "one without dimensions"},
-      {"single_mode_fracture", "one without dimensions"},  {"terzaghi", "one without dimensions"}};
+  // Scenes without dimensions, one with heads and hydraulic conductivities, and a network that encloses small pockets.
+  const std::map<std::string, std::string> notes = {{"berre_regular_network", "one without dimensions"},
+                                                    {"berre_small_features", "one without dimensions"},
+                                                    {"berre_single_fracture", "'viscosity' is '1 Pa*s'"},
+                                                    {"biot_manufactured", "one without dimensions"},
+                                                    {"complex_network", "one without dimensions"},
+                                                    {"outcrop_network", "enclose 1.7 m^2 with 3 cells"},
+                                                    {"regular_network", "one without dimensions"},
+                                                    {"single_mode_fracture", "one without dimensions"},
+                                                    {"terzaghi", "one without dimensions"}};
   const Folder folder;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(config(""))) {
     if (entry.path().extension() != ".yaml") continue;

@@ -122,7 +122,7 @@ TEST(Junctions, HoldFluidAtRestUnderGravity) {
   run.run();
   const Mesh& mesh = run.mesh();
   ASSERT_EQ(mesh.junctions.size(), 2u);
-  const Point datum = mesh.fracture_cells[0].center;
+  const Point datum(-0.5, -0.6);  // where the pressure is prescribed, at an end
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     EXPECT_NEAR(run.field("conduit.pressure")[i], 5e4 + 1000 * Point(3, -10).dot(mesh.fracture_cells[i].center - datum),
                 1e-10 * 5e4);
