@@ -80,7 +80,7 @@ class Converge(unittest.TestCase):
 
     def test_a_section_may_be_replaced(self):
         scene = ROOT / "configs/verification/terzaghi.yaml"
-        for settings in (["--set", "mesh.cells=[1, 10]"], ["--set", "mesh=", "--set", "mesh={kind: structured, cells: [1, 10]}"]):
+        for settings in (["--set", "mesh.cells=[1, 10]"], ["--set", "mesh=", "--set", "mesh={kind: structured, cells: [1, 10], shape: quadrilaterals}"]):
             done = subprocess.run([SPREKK, "converge", scene, "--of", "p_closed", *settings, "-o", self.folder / str(len(settings))],
                                   capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, 0, done.stderr)

@@ -286,8 +286,8 @@ time: {{end: 1 s, step: 1 s}}
         edges = {"one": [[0, 0, 0], [0, 1.2, 0], [1, 1.2, 0.9], [1, 0, 0.9]]}
         found = []
         border = {"one": [[0, 0, 0.45], [1, 0, 0.45], [1, 1.2, 0.45], [0, 1.2, 0.45]]}
-        for fractures, parts, given, other in ((edges, "", "bottom", "left"), (border, "  sides: {low: {on: left, z: [0 m, 0.45 m]}}\nmesh:", "left", "low"),
-                                               (border, "  sides: {low: {on: left, z: [0 m, 0.45 m]}}\nmesh:", "low", "left")):
+        for fractures, parts, given, other in ((edges, "", "bottom", "left"), (border, "  sides: {low: {side: left, z: [0 m, 0.45 m]}}\nmesh:", "left", "low"),
+                                               (border, "  sides: {low: {side: left, z: [0 m, 0.45 m]}}\nmesh:", "low", "left")):
             text = scene("{size: 0.4 m}", fractures, pressure=None).replace("mesh:", parts or "mesh:", 1)
             start, end = text.split("  conduit:")
             noted = []
@@ -326,7 +326,7 @@ time: {{end: 1 s, step: 1 s}}
 
     def test_parts_of_sides_have_conditions_of_their_own(self):
         """A linear pressure on a part of the left side, what leaves there, and no flow through the other part: as the whole side."""
-        parts = "sides: {{low: {{on: left, z: [0 m, 0.3 m]}}, patch: {{on: top, x: [0.25 m, 0.75 m], y: [0.3 m, 0.6 m]}}}}"
+        parts = "sides: {{low: {{side: left, z: [0 m, 0.3 m]}}, patch: {{side: top, x: [0.25 m, 0.75 m], y: [0.3 m, 0.6 m]}}}}"
         for mesh in ("{size: 0.25 m}", "{kind: structured, shape: hexahedra, cells: [4, 4, 3]}"):
             with self.subTest(mesh):
                 whole = scene(mesh, {})
@@ -338,10 +338,10 @@ time: {{end: 1 s, step: 1 s}}
 
     def test_parts_of_sides_that_cannot_be_are_refused(self):
         text = scene("{kind: structured, shape: hexahedra, cells: [4, 4, 3]}", {})
-        for parts, words in (("low: {on: left, z: [0 m, 0.4 m]}", "does not follow 'low'"), ("left: {on: left, z: [0 m, 0.3 m]}", "name of a whole side"),
-                             ("low: {on: left, z: [0 m, 2 m]}", "leaves its side along z"), ("low: {on: left, x: [0 m, 1 m]}", "has one x"),
-                             ("low: {on: left, z: [0 m, 0.6 m]}, high: {on: left, z: [0.3 m, 0.9 m]}", "overlaps 'low'"),
-                             ("low: {on: left, z: [0.6 m, 0.3 m]}", "does not begin and end along z")):
+        for parts, words in (("low: {side: left, z: [0 m, 0.4 m]}", "does not follow 'low'"), ("left: {side: left, z: [0 m, 0.3 m]}", "name of a whole side"),
+                             ("low: {side: left, z: [0 m, 2 m]}", "leaves its side along z"), ("low: {side: left, x: [0 m, 1 m]}", "has one x"),
+                             ("low: {side: left, z: [0 m, 0.6 m]}, high: {side: left, z: [0.3 m, 0.9 m]}", "overlaps 'low'"),
+                             ("low: {side: left, z: [0.6 m, 0.3 m]}", "does not begin and end along z")):
             with self.subTest(parts):
                 called = self.call("check", self.write(text.replace("mesh:", f"  sides: {{{parts}}}\nmesh:"), f"parts_{next(self.numbers)}.yaml"))
                 self.assertEqual(called.returncode, 2, called.stderr)

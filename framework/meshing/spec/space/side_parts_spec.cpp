@@ -13,7 +13,7 @@ namespace {
 constexpr double open = std::numeric_limits<double>::infinity();
 
 struct PartInput {
-  std::string on;
+  std::string side;
   std::array<std::vector<double>, dimension> ends;  ///< along each axis
   std::optional<double> size;
 };
@@ -23,7 +23,7 @@ Spec part_spec(const std::string& name, const Origin& origin, Geometry* geometry
   Spec spec("side", "A rectangle on a side of the box, which has conditions of its own by its name.");
   std::vector<std::pair<std::string, std::string>> choices;
   for (const char* side : box_sides) choices.emplace_back(side, "on the side " + std::string(side));
-  spec.choice("on", input->on, choices, {.doc = "The side.", .required = true});
+  spec.choice("side", input->side, choices, {.doc = "The side.", .required = true});
   for (int axis = 0; axis < dimension; ++axis)
     spec.quantities(axis_names[axis], input->ends[axis],
                     {.unit = "m",
@@ -36,13 +36,13 @@ Spec part_spec(const std::string& name, const Origin& origin, Geometry* geometry
                         "changes at its border, fluxes converge slowly, and small cells help."});
   spec.check([input, name, origin, geometry](const Node& whole) {
     SidePart part{name, 0, Point::Constant(-open), Point::Constant(open), origin, input->size};
-    part.side = static_cast<int>(std::ranges::find(box_sides, input->on) - box_sides.begin());
+    part.side = static_cast<int>(std::ranges::find(box_sides, input->side) - box_sides.begin());
     for (int axis = 0; axis < dimension; ++axis) {
       const std::vector<double>& ends = input->ends[axis];
       if (ends.empty()) continue;
       if (axis == part.side / 2)
         throw InputError(whole.origin, "'" + name + "' has ends along " + axis_names[axis],
-                         "the side '" + input->on + "' has one " + axis_names[axis], "remove them");
+                         "the side '" + input->side + "' has one " + axis_names[axis], "remove them");
       if (ends.size() != 2 || !(ends[0] < ends[1]))
         throw InputError(whole.origin, "'" + name + "' does not begin and end along " + axis_names[axis],
                          "two values are needed, the smaller one first",
