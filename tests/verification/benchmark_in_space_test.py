@@ -70,7 +70,7 @@ class BenchmarkInSpace(SceneRuns):
         """x, y, z become y, z, x; what enters and leaves is the same, and so are the heads on a mesh that is another one."""
         text = (CONFIGS / "berre_regular_network.yaml").read_text()
         names = {"x": "y", "y": "z", "z": "x", "left": "front", "right": "back", "front": "bottom", "back": "top", "bottom": "left", "top": "right"}
-        text = re.sub(r"\b(x|y|z)(?=: \[)|(?<=on: )(\w+)", lambda found: names[found.group()], text)
+        text = re.sub(r"\b(x|y|z)(?=: \[)|(?<=side: )(\w+)", lambda found: names[found.group()], text)
         text = re.sub(r"\[([\d.]+ m), ([\d.]+ m), ([\d.]+ m)\]", r"[\3, \1, \2]", text)
         places, wanted = reference("berre_blocking_network")
         found, _ = self.heads(self.write(text), "diagonal", places)
