@@ -1,4 +1,6 @@
 // heat_exchange: heat is conducted between a fracture and the matrix through its walls.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -6,10 +8,14 @@
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/geometry.hpp"
+#include "framework/mesh/ridge_distance.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
 namespace {
+
+constexpr double noticeable_part_along = 1e-2;  // of what the rock beside a fracture conducts along it
 
 struct HeatExchangeOptions {
   std::optional<Data> conductance;
@@ -21,7 +27,8 @@ struct HeatExchangeOptions {
     spec.data("conductance", conductance,
               {.unit = "W/(m^2*K)",
                .range = non_negative(),
-               .doc = "Conductance of each wall, per length of the fracture; without it, twice the conductivity over "
+               .doc = "Conductance of each wall, per length (in space, area) of the fracture; without it, twice the "
+                      "conductivity over "
                       "the aperture of "
                       "the fracture.",
                .fixed = "the walls conduct as at the start"});
@@ -72,6 +79,7 @@ class HeatExchange : public Coupler {
           if (resistance > 0) in_front[w] = 1 / resistance;
         }
     exchange(mesh_, Location::wall, 1, in_front);
+    find_conduction_along(in_front);
     const Vector scale = (conductance_ + in_front).cwiseInverse();
     of_flux_ = scale;
     of_temperature_ = scale.cwiseProduct(conductance_);
@@ -101,6 +109,10 @@ class HeatExchange : public Coupler {
     assembly.derivative(flux, temperature, SparseMatrix((-of_temperature_).asDiagonal() * to_walls_));
   }
 
+  void note_step(Notes& notes, const StepTime&) const override {
+    if (!along_.empty()) notes.add(name() + ": heat along cells that are no rectangles", along_);
+  }
+
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     for (const Component* rock : components)
       for (const Component* fracture : components) {
@@ -115,6 +127,43 @@ class HeatExchange : public Coupler {
   }
 
  private:
+  /// Looks for the fracture cell in which two-point fluxes are not exact and that conducts most along the fracture,
+  /// over what a layer of rock as thick as the cell is long conducts. `in_front`: of each wall, W/(m^2 K).
+  void find_conduction_along(const Vector& in_front) {
+    along_.clear();
+    const Vector* thickness = fracture_.thickness();
+    if (dimension == 2 || !thickness) return;
+    double largest = noticeable_part_along;
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+      const FractureCell& cell = mesh_.fracture_cells[i];
+      double rock = 0;  // W/(m K), the mean of both sides
+      for (const int side : {0, 1}) {
+        const int beside = mesh_.face_cells[cell.faces[side]][0];
+        rock += 0.5 * in_front[2 * i + side] * std::abs((mesh_.cell_center[beside] - cell.center).dot(cell.normal));
+      }
+      const double a = (*thickness)[i], water = 0.5 * fracture_.wall_conductance()[2 * i] * a;
+      const double part = water * a / (rock * cell.size());
+      if (part <= largest || is_exact_by_two_points(i)) continue;
+      largest = part;
+      along_ = fmt::format(
+          "heat that is conducted along the fracture '{}' is not accurate: at {} the fracture conducts {:.2g} times as "
+          "much along itself as the rock "
+          "beside it (two-point fluxes along fractures are exact in rectangles alone) take a structured mesh of "
+          "hexahedra, whose fractures consist "
+          "of rectangles",
+          mesh_.fractures[cell.fracture].name, to_text(cell.center), part);
+    }
+  }
+
+  /// Whether the lines from the centre to the ridges are at right angles to these.
+  bool is_exact_by_two_points(int cell) const {
+    constexpr double round_off = 1e-9;
+    return std::ranges::all_of(mesh_.fracture_cells[cell].ridges, [&](int ridge) {
+      const double apart = (mesh_.ridges[ridge].center - mesh_.fracture_cells[cell].center).norm();
+      return apart <= (1 + round_off) * distance_to_ridge(mesh_, cell, ridge);
+    });
+  }
+
   const Mesh& mesh_;
   MatrixTemperature& matrix_;
   HeatWalls& walls_;
@@ -123,6 +172,7 @@ class HeatExchange : public Coupler {
   SparseMatrix to_walls_;  ///< walls × fracture cells
   Operator outflow_;       ///< fracture cells × walls: lengths
   Vector of_flux_, of_temperature_;
+  std::string along_;  ///< a note, or ""
 };
 
 const RegisterCoupler<HeatExchange, HeatExchangeOptions> registration("heat_exchange");

@@ -13,10 +13,10 @@ class MatrixTemperature {
  public:
   static constexpr const char* promise = "determines the temperature of the matrix";
   virtual ~MatrixTemperature() = default;
-  /// K, one a cell. Its equation is the heat that the cell stores during the step, less what entered (J/m).
+  /// K, one a cell. Its equation is the heat that the cell stores during the step, less what entered (J/m, in space J).
   virtual Field& temperature() = 0;
-  /// The heat that each cell stores per kelvin, J/(m K), by its own heat capacity and without the fluid that has
-  /// entered or left it; empty where the temperature is given and no heat is stored.
+  /// The heat that each cell stores per kelvin, J/(m K) (in space J/K), by its own heat capacity and without the fluid
+  /// that has entered or left it; empty where the temperature is given and no heat is stored.
   virtual const Vector& heat_capacity() const = 0;
   /// K, one a cell: the temperature of the reference state, without thermal stress.
   virtual const Vector& initial_temperature() const = 0;
@@ -40,9 +40,10 @@ class FractureTemperature {
  public:
   static constexpr const char* promise = "determines the temperature in the fractures";
   virtual ~FractureTemperature() = default;
-  /// K, one a fracture cell. Its equation is the heat that the cell stores during the step, less what entered (J/m).
+  /// K, one a fracture cell. Its equation is the heat that the cell stores during the step, less what entered (J/m, in
+  /// space J).
   virtual Field& temperature() = 0;
-  /// The heat that each fracture cell stores per kelvin, J/(m K), as in MatrixTemperature.
+  /// The heat that each fracture cell stores per kelvin, J/(m K) (in space J/K), as in MatrixTemperature.
   virtual const Vector& heat_capacity() const = 0;
   /// The temperature that is prescribed in this step where a fracture ends on a side, at a ridge, K.
   virtual std::optional<double> end_temperature(int point) const = 0;

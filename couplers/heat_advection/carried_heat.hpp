@@ -29,7 +29,7 @@ class CarriedHeat {
   void add_to(Balance& heat) const;
 
   Field* temperature = nullptr;
-  Field* received = nullptr;    ///< m, m^2: fluid that has entered since the start
+  Field* received = nullptr;    ///< m, m^2 (in space m^3): fluid that has entered since the start
   Field* cumulative = nullptr;  ///< (stored, injected, outflow) since the start, J/m
   Location location = Location::cell;
 

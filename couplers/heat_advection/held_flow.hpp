@@ -45,7 +45,8 @@ class HeldFlow {
   void take(const IsSolved& is_solved, const StepTime& step);
   /// The rates in a step.
   FlowRates rates(const IsSolved& is_solved, const StepTime& step) const;
-  /// Through each face of the rock, out of face_cells[f][0], m^2/s. To be called after Part::begin_step of all parts.
+  /// Through each face of the rock, out of face_cells[f][0], m^2/s (in space m^3/s). To be called after
+  /// Part::begin_step of all parts.
   Vector fluxes_in_rock(const IsSolved& is_solved, const StepTime& step) const;
 
   /// On another mesh fluxes are those of the pressures that have been found there, until the flow is solved again.
@@ -62,7 +63,8 @@ class HeldFlow {
   const Mesh* mesh_;
   std::string name_;
   CarryingFlow flow_;
-  Field* flux_ = nullptr;  ///< through each face of the rock as last solved, m^2/s; with a flow in the rock
+  Field* flux_ =
+      nullptr;  ///< through each face of the rock as last solved, m^2/s (in space m^3/s); with a flow in the rock
   FlowCourse in_rock_, through_walls_, in_fractures_, of_wells_;
   bool is_taken_ = false, was_taken_ = false;     // whether flux_ is known, now and when the last step was accepted
   bool has_flowed_ = false, had_flowed_ = false;  // the same

@@ -18,7 +18,7 @@ struct Stream {
   /// or nothing that is solved for.
   enum class Flux { face, wall, ridge, well, none };
   int cell;
-  double rate;  ///< m^2/s
+  double rate;  ///< m^2/s (in space m^3/s)
   From from;
   int index = none;         ///< of the cell or of the well that it comes from
   double temperature = 0;   ///< K, where it is given
@@ -31,8 +31,8 @@ struct Stream {
 /// The rates of fluid that hold in a step, without those through faces. What is missing is empty.
 struct FlowRates {
   Vector walls;   ///< from the fracture into the rock, m/s
-  Vector points;  ///< through each ridge, from its first to its second cell, m^2/s
-  Vector wells;   ///< out of the well at each place, m^2/s
+  Vector points;  ///< through each ridge, from its first to its second cell, m^2/s (in space m^3/s)
+  Vector wells;   ///< out of the well at each place, m^2/s (in space m^3/s)
   std::vector<FluidSource> sources_in_rock = {}, sources_in_fractures = {};
 };
 
@@ -55,7 +55,8 @@ struct StreamSources {
   }
 };
 
-/// The streams of cells of the rock that the process owns. `fluxes`: through each face, m^2/s, out of face_cells[f][0].
+/// The streams of cells of the rock that the process owns. `fluxes`: through each face, m^2/s (in space m^3/s), out of
+/// face_cells[f][0].
 std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes);
 /// The streams of all fracture cells. A reservoir supplies what its cells lose to others, and takes what they gain.
 std::vector<Stream> streams_of_fractures(const StreamSources& sources, const FlowRates& rates);

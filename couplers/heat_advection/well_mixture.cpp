@@ -7,6 +7,7 @@
 
 #include "framework/config/data.hpp"
 #include "framework/config/input_error.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::couplers {
@@ -111,9 +112,9 @@ void HeatOfWells::note(const std::string& coupler, Notes& notes) const {
   for (int well = 0; well < net.size(); ++well)
     if (!injected[well] && net[well] > noticeable_part_of_rates * rates.lpNorm<Eigen::Infinity>())
       notes.add(coupler + ": fluid of " + wells->names()[well] + " without a temperature",
-                fmt::format("well '{}' injects {:.3g} m^2/s of fluid that has no temperature (it enters with that of "
+                fmt::format("well '{}' injects {:.3g} {} of fluid that has no temperature (it enters with that of "
                             "what flows into the well elsewhere, or of the cell) give one under 'injected' of {}",
-                            wells->names()[well], net[well], coupler),
+                            wells->names()[well], net[well], volume_rate_unit, coupler),
                 net[well]);
 }
 

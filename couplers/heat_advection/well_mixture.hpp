@@ -22,7 +22,7 @@ struct HeatOfCells {
 ///   T = (sum over q_k < 0 of −q_k T_k + max(Q, 0) T_given)/(sum over q_k < 0 of −q_k + max(Q, 0)).
 /// It leaves with T, at other places and to the outside.
 struct WellMixture {
-  /// By the rate at a place, K s/m^2, or by the temperature of a cell.
+  /// By the rate at a place, K s/m^2 (in space K s/m^3), or by the temperature of a cell.
   struct Derivative {
     int index;
     double value;
@@ -41,7 +41,7 @@ struct HeatOfWells {
 
   bool is_known(const AroundWell& around) const;
   /// One a well; empty for a well that is open to nothing whose temperature is known. `rates`: out of the well at each
-  /// place, m^2/s.
+  /// place, m^2/s (in space m^3/s).
   Mixtures mixtures(const Vector& rates) const;
   /// Throws DataError where the fluid that a well brings has no temperature. `coupler`: its name.
   void check(const std::string& coupler) const;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""extruded_scenes_test.py SPREKK [MPIEXEC]: each verification scene of flow alone, extruded into space, has its answer in the plane.
+"""extruded_scenes_test.py SPREKK [MPIEXEC]: each verification scene of flow and heat, extruded into space, has its answer in the plane.
 
 (x, y) becomes (x, z): the mesh of the plane, node by node, becomes two layers of wedges (or hexahedra), each line of a fracture a row of
 rectangles. Sides in front and behind let nothing through. Expressions of y become those of z, rates are those over the depth."""
@@ -17,18 +17,23 @@ from scene_runs import ROOT, SPREKK, SceneRuns, on_two_processes
 SCENES = ROOT / "configs"
 # What the scenes have that has no counterpart in space.
 LEFT_OUT = {"verification/theis.yaml": "wells/limited are in a plane alone",
+            "tutorial/heat_doublet.yaml": "wells/limited are in a plane alone",
             "tutorial/well_limits.yaml": "wells/limited are in a plane alone"}
 # Settings of the plane and of space: coarser meshes, for seconds; and a point, which would become a line, becomes the whole fracture.
 EXTRUDED = {"verification/closed_box.yaml": ["components.conduit.injection.well.at=null", "components.conduit.injection.well.fracture=main"],
             "verification/complex_network.yaml": ["mesh={size: 0.1 m, fracture_size: 0.04 m}"],
             "verification/fracture_barrier.yaml": ["mesh={size: 0.2 m, fracture_size: 30 mm, growth: 0.2}"],
             "verification/fracture_inflow.yaml": ["mesh={size: 0.2 m, fracture_size: 30 mm, growth: 0.2}"],
+            "tutorial/geothermal_convection.yaml": ["mesh={size: 0.3 km, fracture_size: 0.15 km}", "time={end: 200000 day, step: 100000 day}",
+                                                   "components.heat.boundary.bottom.temperature=(413.15 - 0.02*x/m) K"],
             "verification/hydrocoin.yaml": [],
+            "verification/lauwerier.yaml": ["mesh.cells=[10, 20]", "time={end: 5e4 s, step: 1e4 s}"],
+            "verification/ogata_banks.yaml": ["mesh.cells=[40, 1]", "time={end: 2e4 s, step: 4e3 s}"],
             "verification/outcrop_network.yaml": ["mesh={size: 60 m, fracture_size: 30 m}"],
             "verification/regular_network.yaml": ["mesh.size=0.06 m"],
             "verification/single_mode_fracture.yaml": ["mesh.size=0.08 m"]}
 BALANCED = ("verification/single_mode_fracture.yaml",)  # as much leaves each side as enters it: the sums are round-off
-COUPLED = ("poromechanics", "matrix_heat", "fracture_heat", "contact")  # what a scene of flow alone has not
+COUPLED = ("poromechanics", "contact")  # what a scene of flow and heat has not
 LAYERS = 2
 
 loader = importlib.machinery.SourceFileLoader("turn_scene", str(ROOT / "tools/turn_scene"))
@@ -66,8 +71,10 @@ def extrude_mesh(source, target, depth):
 
 
 def in_space(value, depth):
-    """A datum of the plane: y becomes z, a rate in m^2/s one over the depth."""
+    """A datum of the plane: y becomes z, a rate in m^2/s one over the depth; a tensor has the same value along y as along x."""
     if isinstance(value, dict):
+        if set(value) <= {"xx", "yy", "xy"}:
+            return {"xx": value["xx"], "yy": value["xx"], "zz": value["yy"], **({"xz": value["xy"]} if "xy" in value else {})}
         return {key: in_space(entry, depth) for key, entry in value.items()}
     if isinstance(value, list):
         return [in_space(entry, depth) for entry in value]
@@ -81,9 +88,12 @@ def extrude(parameters, mesh, depth):
     """What has to change in a scene of the plane."""
     changed = {"geometry.file": str(mesh)}
     for path, text in parameters.items():
-        if path.partition(".")[0] != "components" or path.endswith((".type", ".fracture")):
+        if path.partition(".")[0] not in ("components", "materials") or path.endswith((".type", ".fracture")):
             continue
         value = turn_scene.read_flow(text)
+        if path.endswith(".gravity"):
+            changed[path] = [value[0], "0 m/s^2", value[1]]
+            continue
         if in_space(value, depth) != value:
             changed[path] = in_space(value, depth)
     return turn_scene.nest(changed)
@@ -111,7 +121,7 @@ class ExtrudedScenes(SceneRuns):
         for folder in ("verification", "tutorial"):
             for scene in (SCENES / folder).glob("*.yaml"):
                 text = scene.read_text()
-                if "matrix_flow/" in text and not any(word in text for word in COUPLED) and " z: [" not in text:
+                if ("matrix_flow/" in text or "matrix_heat/" in text) and not any(word in text for word in COUPLED) and " z: [" not in text:
                     flows.add(f"{folder}/{scene.name}")
         self.assertEqual(flows, set(EXTRUDED) | set(LEFT_OUT))
 
@@ -150,8 +160,8 @@ class ExtrudedScenes(SceneRuns):
             if kind == "fractures" and not self.has_fractures(plane):
                 continue
             flat, solid = plane.fields(kind=kind), space.fields(kind=kind)
-            field = next((field for field in flat.names if field.endswith(".pressure")), None)
-            if not field:
+            fields = [field for field in flat.names if field.endswith((".pressure", ".temperature"))]
+            if not fields:
                 continue  # a sealed fracture
             self.assertEqual(len(solid.sizes), LAYERS * len(flat.sizes))
             seen, wanted = solid.centres[:, [0, 2]], flat.centres[:, :2]
@@ -161,8 +171,7 @@ class ExtrudedScenes(SceneRuns):
             place -= np.abs(seen @ direction - sorted_places[place - 1]) < np.abs(seen @ direction - sorted_places[place])
             size = np.ptp(wanted, axis=0).max()
             self.assertLess(np.abs(seen - wanted[order[place]]).max(), 1e-9 * size, (name, kind))
-            scale = np.abs(flat[field]).max()
-            worst = np.abs(solid[field] - flat[field][order[place]]).max() / scale
+            worst = max(np.abs(solid[field] - flat[field][order[place]]).max() / np.abs(flat[field]).max() for field in fields)
             print(f"{name}: {kind}, {len(solid.sizes)} cells: {worst:.1e}")
             self.assertLess(worst, near, (name, kind))
         columns = [column for column in plane.history if ".outflow[" in column]
