@@ -61,9 +61,6 @@ class Assembly {
   /// The product of matrix and column, for terms that a part puts together itself. Terms of exchanges are then added
   /// with BalanceRows::exchange.
   const Vector& product(const Operator& matrix, const Field& column) { return products_->value_now(matrix, column); }
-  const Vector& accepted_product(const Operator& matrix, const Field& column) {
-    return products_->value_accepted(matrix, column);
-  }
 
   /// Replaces row i of the equation by scale · (value − target) = 0, whatever other terms it has. `scale` brings it to
   /// the units of the equation. To be called after all terms: by Part::constrain.

@@ -42,11 +42,10 @@ FieldProduct multiply(const SparseMatrix& a, const Vector& x, bool with_size) {
   return with_size ? multiplied<true>(a, x) : multiplied<false>(a, x);
 }
 
-const FieldProduct& Products::of(const Operator& a, const Field& x, const Vector& values, std::uint64_t version,
-
-                                 bool with_size) {
+const FieldProduct& Products::of(const Operator& a, const Field& x, bool with_size) {
+  const Vector& values = x.now();
+  const std::uint64_t version = x.version();
   Recent& recent = recent_[{a.number(), &x}];
-  SPREKK_EXPECT(values.size() == x.size(), x.name(), values.size(), x.size());
   recent.is_used = true;
   for (Kept& kept : recent.kept)
     if (kept.used > 0 && kept.version == version) {

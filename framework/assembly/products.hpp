@@ -26,12 +26,9 @@ class Products {
  public:
   /// The product with the current value of the field. The reference stays valid until `forget_unused`, or until
   /// products of this operator with two other values of the field have been asked for.
-  const FieldProduct& now(const Operator& a, const Field& x) { return of(a, x, x.now(), x.version(), true); }
+  const FieldProduct& now(const Operator& a, const Field& x) { return of(a, x, true); }
   /// The product alone, without the sizes, which takes less time.
-  const Vector& value_now(const Operator& a, const Field& x) { return of(a, x, x.now(), x.version(), false).value; }
-  const Vector& value_accepted(const Operator& a, const Field& x) {
-    return of(a, x, x.accepted(), x.accepted_version(), false).value;
-  }
+  const Vector& value_now(const Operator& a, const Field& x) { return of(a, x, false).value; }
   /// Drops the products of operators that nobody has asked for since the last call.
   void forget_unused();
 
@@ -45,8 +42,7 @@ class Products {
     Kept kept[2];
     bool is_used = false;
   };
-  const FieldProduct& of(const Operator& a, const Field& x, const Vector& values, std::uint64_t version,
-                         bool with_size);
+  const FieldProduct& of(const Operator& a, const Field& x, bool with_size);
 
   std::map<std::pair<std::uint64_t, const Field*>, Recent> recent_;  ///< by the number of the operator
   std::uint64_t uses_ = 0;

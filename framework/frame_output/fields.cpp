@@ -1,6 +1,6 @@
 // fields: everything for ParaView.
 #include "framework/frame_output/registry.hpp"
-#include "framework/output/field_output.hpp"
+#include "framework/output/field_series.hpp"
 
 namespace sprekk {
 
@@ -10,15 +10,15 @@ class Fields : public FrameOutput {
  public:
   Fields(const OutputPlace& place, PointData points)
       : points_(points),
-        files_(place.continued_from ? FieldOutput::continued(place.folder, *place.continued_from)
-                                    : FieldOutput(place.folder)) {}
+        files_(place.continued_from ? FieldSeries::continued(place.folder, *place.continued_from)
+                                    : FieldSeries(place.folder)) {}
   void write(const Frame& frame) override {
     files_.write(frame.time, frame.step, frame.mesh, frame.fields, frame.lines, points_);
   }
 
  private:
   PointData points_;
-  FieldOutput files_;
+  FieldSeries files_;
 };
 
 struct FieldsOptions {

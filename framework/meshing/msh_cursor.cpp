@@ -56,11 +56,6 @@ std::string_view MshCursor::rest_of_line() {
   return line;
 }
 
-void MshCursor::skip_bytes(std::size_t count, const char* what) {
-  if (count > remaining()) fail(std::string("the file ends within ") + what);
-  at_ += count;
-}
-
 bool MshCursor::skip_past(std::string_view text) {
   const std::size_t found = bytes_.find(text, at_);
   if (found == std::string_view::npos) return false;

@@ -37,7 +37,6 @@ class MshCursor {
   std::string_view word(const char* what);  ///< up to the next blank or line break
   std::string_view rest_of_line();          ///< moves to the start of the next line
   void skip_blanks();                       ///< line breaks as well
-  void skip_bytes(std::size_t count, const char* what);
   /// Moves behind the next occurrence of `text`; returns false, without a move, if there is none.
   bool skip_past(std::string_view text);
 

@@ -82,7 +82,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   const ScheduleContext context{mesh_,     fields_, parts_, std::move(log), named, scene_.time.start, scene_.time.step,
                                 &growing_, &states_};
   schedule_ = scene_.schedule(context);
-  make_start(context);
+  build_settling(context);
   now_doing("the first evaluation of all data");
   check_determined();
   refusing_bad_data([this] { check_data(); });

@@ -68,7 +68,8 @@ class Model {
   void add_note(const std::string& topic, const std::string& text) { scene_.notes.add(topic, text); }
 
  private:
-  void make_start(const ScheduleContext& context);
+  /// The solve of `start: settle`, where the scene has one.
+  void build_settling(const ScheduleContext& context);
   void note_start();
   /// Makes the present state the reference of all that is counted by changes.
   void count_from_here(const SettledFields& settled);

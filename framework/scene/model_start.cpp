@@ -31,7 +31,7 @@ void refuse_growth(const std::vector<const Field*>& settled, StepStatus& status)
 
 }  // namespace
 
-void Model::make_start(const ScheduleContext& context) {
+void Model::build_settling(const ScheduleContext& context) {
   const StartOptions& start = scene_.start;
   if (start.settle.empty()) return;
   if (!growing_.empty())

@@ -72,7 +72,7 @@ void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
                       tip.now.load});
 }
 
-Growing::Growth Tips::grow(const StepTime&) {
+std::vector<TipOutcome> Tips::find_outcomes() {
   std::vector<GrowingTip> growing;
   std::vector<double> at_start;  // Pa m^0.5, K_IC of each tip; the search gets K scaled to this toughness
   const auto over_start = [&](int tip, const TipPath& path) {
@@ -105,6 +105,11 @@ Growing::Growth Tips::grow(const StepTime&) {
   for (std::size_t i = 0; i < tips_.size(); ++i)
     if (!is_followed(tips_[i]))
       outcomes[i].end = times(outcomes[i].end, over_start(static_cast<int>(i), outcomes[i].path));
+  return outcomes;
+}
+
+Growing::Growth Tips::grow(const StepTime&) {
+  std::vector<TipOutcome> outcomes = find_outcomes();
   Growth result;
   std::vector<PathExtension>& extensions = result.extensions;
   std::vector<std::pair<int, int>> joined;

@@ -195,6 +195,8 @@ class Tips : public Component,
   void note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined);
   void note_narrow_square(const Tip& tip, Notes& notes) const;
   void note_shear(const Tip& tip, Notes& notes) const;
+  /// How far each tip grows with the state held. Tips that the mesh follows stay.
+  std::vector<TipOutcome> find_outcomes();
   /// Stops tips whose path the mesh cannot take: they stay for good where they were at the start of the step.
   void stop_refused(std::vector<PathExtension>& extensions, const std::vector<TipOutcome>& outcomes);
   /// Whether the path of a tip is so long that the mesh follows it.

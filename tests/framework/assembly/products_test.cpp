@@ -34,7 +34,6 @@ struct KeptProducts : testing::Test {
     EXPECT_EQ(products.value_now(matrix, field), multiply(matrix.entries(), field.now(), false).value);
     EXPECT_EQ(products.now(matrix, field).value, multiply(matrix.entries(), field.now()).value);
     EXPECT_EQ(products.now(matrix, field).size, multiply(matrix.entries(), field.now()).size);
-    EXPECT_EQ(products.value_accepted(matrix, field), multiply(matrix.entries(), field.accepted()).value);
   }
 };
 
@@ -66,10 +65,6 @@ TEST_F(KeptProducts, OfAnAcceptedStateServeTheNextStep) {
   const double* computed = products.value_now(a, field).data();
   field.accept();
   EXPECT_EQ(products.value_now(a, field).data(), computed);
-  EXPECT_EQ(products.value_accepted(a, field).data(), computed);
-  field.set(some_values(2));
-  products.now(a, field);
-  EXPECT_EQ(products.value_accepted(a, field).data(), computed);
 }
 
 TEST_F(KeptProducts, AreThoseOfTheMatrixThatAPartHasNow) {

@@ -12,17 +12,17 @@ namespace sprekk {
 /// Writes folder/matrix_000010.vtu, folder/fractures_000010.vtu (if there are fractures), matrix.pvd and fractures.pvd;
 /// also folder/paths_000010.vtu and paths.pvd from the first time on at which there are lines that the mesh does not
 /// have.
-class FieldOutput {
+class FieldSeries {
  public:
-  explicit FieldOutput(const std::filesystem::path& folder);
+  explicit FieldSeries(const std::filesystem::path& folder);
   /// After a restart from `time` (s): files that were written for later times are replaced.
-  static FieldOutput continued(const std::filesystem::path& folder, double time);
+  static FieldSeries continued(const std::filesystem::path& folder, double time);
 
   void write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields,
              const std::vector<OutputLine>& lines = {}, PointData points = PointData::only_fields_on_nodes);
 
  private:
-  FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures, TimeSeries paths);
+  FieldSeries(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures, TimeSeries paths);
 
   std::filesystem::path folder_;
   TimeSeries matrix_, fractures_, paths_;

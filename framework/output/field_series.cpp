@@ -1,4 +1,4 @@
-#include "framework/output/field_output.hpp"
+#include "framework/output/field_series.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace sprekk {
 
-FieldOutput::FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures, TimeSeries paths)
+FieldSeries::FieldSeries(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures, TimeSeries paths)
     : folder_(std::move(folder)),
       matrix_(std::move(matrix)),
       fractures_(std::move(fractures)),
@@ -14,16 +14,16 @@ FieldOutput::FieldOutput(std::filesystem::path folder, TimeSeries matrix, TimeSe
   open_module("vtk");  // throws before the run starts if fields cannot be written
 }
 
-FieldOutput::FieldOutput(const std::filesystem::path& folder)
-    : FieldOutput(folder, TimeSeries(folder / "matrix.pvd"), TimeSeries(folder / "fractures.pvd"),
+FieldSeries::FieldSeries(const std::filesystem::path& folder)
+    : FieldSeries(folder, TimeSeries(folder / "matrix.pvd"), TimeSeries(folder / "fractures.pvd"),
                   TimeSeries(folder / "paths.pvd")) {}
 
-FieldOutput FieldOutput::continued(const std::filesystem::path& folder, double time) {
+FieldSeries FieldSeries::continued(const std::filesystem::path& folder, double time) {
   return {folder, TimeSeries::continued(folder / "matrix.pvd", time),
           TimeSeries::continued(folder / "fractures.pvd", time), TimeSeries::continued(folder / "paths.pvd", time)};
 }
 
-void FieldOutput::write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields,
+void FieldSeries::write(double time, int step, const Mesh& mesh, const std::vector<OutputField>& fields,
                         const std::vector<OutputLine>& lines, PointData points) {
   const std::string matrix_file = fmt::format("matrix_{:06}.vtu", step);
   write_matrix_vtu(folder_ / matrix_file, mesh, fields, points);
