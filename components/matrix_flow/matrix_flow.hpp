@@ -44,8 +44,10 @@ struct SideCondition {
 /// A point source or sink of fluid.
 struct Well {
   Origin origin;
-  Point at = Point::Zero();
-  Data rate;  ///< m^2/s, into the rock
+  std::optional<Point> at;    ///< m, or
+  std::vector<Point> points;  ///< m, of a line
+  Data rate;                  ///< m^2/s, into the rock
+  std::vector<Point> path() const { return at ? std::vector{*at} : points; }
 };
 
 /// Parameters of the flow in the matrix.

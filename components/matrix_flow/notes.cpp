@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "components/capabilities/overshoots.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
@@ -43,6 +44,15 @@ std::string fracture_at(const Mesh& mesh, const Point& at) {
   return "";
 }
 
+/// The names of the fractures on which a point lies, or the middle of a part of a line.
+std::set<std::string> fractures_along(const Mesh& mesh, const std::vector<Point>& path) {
+  std::set<std::string> names;
+  if (path.size() == 1) names.insert(fracture_at(mesh, path[0]));
+  for (std::size_t k = 1; k < path.size(); ++k) names.insert(fracture_at(mesh, 0.5 * (path[k - 1] + path[k])));
+  names.erase("");
+  return names;
+}
+
 /// Where, why, and what to do; {} is a number of places.
 const char* where_inexact(MatrixFlow::Fluxes kind) {
   switch (kind) {
@@ -71,7 +81,7 @@ void MatrixFlow::note_input(Notes& notes) const {
               origin_.text() + ": gravity has no effect on the flow of '" + name() +
                   "' (its fluid_density is 0) give a density, or remove the gravity");
   for (const auto& [well, given] : options_.wells)
-    if (const std::string fracture = fracture_at(mesh_, given.at); !fracture.empty())
+    for (const std::string& fracture : fractures_along(mesh_, given.path()))
       notes.add(name() + "." + well + " on a fracture",
                 fmt::format("{}: well '{}' of '{}' lies on the fracture '{}', and feeds the rock at one of its walls "
                             "(which one is an accident of the mesh) move it into the rock, or give the fracture an "

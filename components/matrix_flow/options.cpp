@@ -21,13 +21,20 @@ Spec side_spec(SideCondition& side) {
 }
 
 Spec well_spec(Well& well) {
-  Spec inner("well", "A point that injects (or with a negative rate extracts) fluid.");
-  inner.point("at", well.at, {.unit = "m", .doc = "Position.", .required = true});
+  Spec inner("well", "A point or a line that injects (or with a negative rate extracts) fluid.");
+  inner.point("at", well.at, {.unit = "m", .doc = "Position."});
+  inner.points("points", well.points,
+               {.unit = "m", .doc = "Instead of `at`: corners of a line, along which the rate is spread evenly."});
   inner.data("rate", well.rate,
              {.unit = volume_rate_unit,
               .doc = "Volume of fluid per time and metre of depth.",
               .required = true,
               .in_time = true});
+  inner.check([&well](const Node& node) {
+    if (well.at ? !well.points.empty() : well.points.size() < 2)
+      throw InputError(node.origin, "'" + node.path + "' does not say where the well is",
+                       "it is at one place, 'at', or along a line of two 'points' or more", "give one of them");
+  });
   return inner;
 }
 

@@ -1,5 +1,6 @@
 // The properties of rock and fluid, what follows from them, and checks of them.
 #include <algorithm>
+#include <stdexcept>
 
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/discretization/linear_fit.hpp"
@@ -60,9 +61,6 @@ void MatrixFlow::check_sides() const {
     if (std::find(mesh_.side_names.begin(), mesh_.side_names.end(), side) == mesh_.side_names.end())
       throw unknown_name(condition.origin, "side of the boundary", side, mesh_.side_names);
   for (const auto& [name, well] : options_.wells) {
-    if (well_cells_.at(name).empty())
-      throw InputError(well.origin, "well '" + name + "' lies outside the rock", "there is no cell at its position",
-                       "move it inside");
     for (const auto& [cell, weight] : well_cells_.at(name))
       if (!is_in_cell(cell))
         throw InputError(well.origin, "well '" + name + "' lies in rock without a flow",
@@ -105,7 +103,17 @@ void MatrixFlow::place_wells() {
   const auto is_like = [&](int cell, int other) {
     return is_sealed_ || conduct_alike(mobility_[cell], mobility_[other]);
   };
-  for (const auto& [name, well] : options_.wells) well_cells_[name] = linear_fit(mesh_, well.at, is_like);
+  for (const auto& [name, well] : options_.wells) {
+    std::string why = "there is no cell at its position";
+    auto& cells = well_cells_[name];
+    try {
+      cells = well.at ? linear_fit(mesh_, *well.at, is_like) : line_source(mesh_, well.points, is_like);
+    } catch (const std::invalid_argument& outside) {
+      why = outside.what();
+    }
+    if (cells.empty())
+      throw InputError(well.origin, "well '" + name + "' lies outside the rock", why, "move it inside");
+  }
 }
 
 void MatrixFlow::use_storage() {

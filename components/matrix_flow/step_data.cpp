@@ -87,7 +87,7 @@ void MatrixFlow::evaluate_sources(const StepTime& step) {
     }
   }
   for (const auto& [name, well] : options_.wells) {
-    const double rate = value_in_step(well.rate, {well.at, 0, 0}, step);
+    const double rate = value_in_step(well.rate, {well.path().front(), 0, 0}, step);
     FluidSource& at_well = sources_.emplace_back(FluidSource{name, {}});
     for (const auto& [cell, weight] : well_cells_.at(name)) {
       source_[cell] += weight * rate;

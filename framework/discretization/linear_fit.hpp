@@ -19,4 +19,10 @@ namespace sprekk {
 std::vector<std::pair<int, double>> linear_fit(const Mesh& mesh, const Point& x,
                                                const std::function<bool(int, int)>& is_like = {});
 
+/// What a source along a polyline (two points or more, m) gives to cells: as much for each metre, spread at each place
+/// as linear_fit spreads it there. The weights add up to 1. Throws std::invalid_argument, with the place, where the
+/// line leaves the mesh.
+std::vector<std::pair<int, double>> line_source(const Mesh& mesh, const std::vector<Point>& line,
+                                                const std::function<bool(int, int)>& is_like = {});
+
 }  // namespace sprekk

@@ -6,8 +6,8 @@ An ellipse with half axes a > b and eccentricity e at the pressure p takes 4 pi 
 that nothing passes, across a gradient G, has a jump of 2 G b/E(e) sqrt(1 - x^2/a^2 - y^2/b^2). K and E: complete elliptic integrals. (Lamb,
 Hydrodynamics, 1932, secs. 102, 108 and 114.) In a sphere of the permeability k_i the gradient is 3 k/(2 k + k_i) of that far away (Maxwell).
 A rate Q from a point that begins at t = 0: Q/(4 pi k/mu r) erfc(r/sqrt(4 D t)), D = k/(mu S) (Carslaw and Jaeger 1959, sec. 10.4). A rate along a
-line of the length 2 L: Q/(8 pi k/mu L) ln((z + L + r_1)/(z - L + r_2)), with r_1, r_2 the distances to z = -L and L; here as points, nine to
-a cell. Sides have the pressures that these flows have far away.
+line of the length 2 L: Q/(8 pi k/mu L) ln((z + L + r_1)/(z - L + r_2)), with r_1, r_2 the distances to z = -L and L. Theis' well
+q/(4 pi k/mu) E1(r^2/(4 D t)), in a rock that is sheared with it. Sides have the pressures that these flows have far away.
 
 Twins: the disc and the ellipses lie in general position; a mirror image, and coordinates that are disturbed by 1e-9."""
 
@@ -16,7 +16,7 @@ import unittest
 
 import numpy as np
 
-from scene_runs import SceneRuns
+from scene_runs import MPIEXEC, SceneRuns
 
 SIDES = ("left", "right", "front", "back", "bottom", "top")
 CENTRE = np.array([0.1, -0.2, 0.05])  # m
@@ -85,6 +85,20 @@ CONDUIT = """  conduit:
 couplers:
   - {type: wall_exchange, between: [pore, conduit]}
 """
+
+
+def exponential_integral(x):
+    """E1(x), by its series or its continued fraction (Abramowitz and Stegun 5.1.11, 5.1.22)."""
+    if x < 2:
+        term, total = 1.0, -np.euler_gamma - math.log(x)
+        for n in range(1, 60):
+            term *= -x / n
+            total -= term / n
+        return total
+    fraction = 0.0
+    for n in range(60, 0, -1):
+        fraction = n / (1 + n / (x + fraction))
+    return math.exp(-x) / (x + fraction)
 
 
 class BodiesInFlow(SceneRuns):
@@ -259,9 +273,7 @@ time: {{end: 0.5 s, step: {0.5 / steps!r} s}}
         pressure = f"({1 / (8 * math.pi * half)!r}*log(({where} + {half} + {distance(-1)})/({where} - {half} + {distance(1)}))) Pa"
         errors = []
         for cells in (10, 20):
-            count = 9 * int(2 * half * cells / 4 + 1)
-            places = [middle + half * (2 * (i + 0.5) / count - 1) * along for i in range(count)]
-            wells = ", ".join(f"w{i}: {{at: [{', '.join(f'{float(c)!r} m' for c in place)}], rate: {1 / count!r} m^3/s}}" for i, place in enumerate(places))
+            ends = ", ".join("[" + ", ".join(f"{float(c)!r} m" for c in middle + sign * half * along) + "]" for sign in (-1, 0.3, 1))
             rock = self.run_scene(self.file_of(f"""
 name: line
 geometry: {{box: {{x: [-2 m, 2 m], y: [-2 m, 2 m], z: [-2 m, 2 m]}}}}
@@ -272,7 +284,7 @@ components:
     permeability: 1 m^2
     viscosity: 1 Pa*s
     storage: 0 1/Pa
-    wells: {{{wells}}}
+    wells: {{line: {{points: [{ends}], rate: 1 m^3/s}}}}
     boundary: {{{', '.join(f'{side}: {{pressure: {pressure}}}' for side in SIDES)}}}
 schedule:
   - solve: [pore]
@@ -284,6 +296,43 @@ time: {{end: 1 s, step: 1 s}}
             exact = np.log((place + half + ends[0]) / (place - half + ends[1])) / (8 * math.pi * half)
             errors.append(self.error_of(rock, exact, np.linalg.norm(apart - np.clip(place, -half, half)[:, None] * along, axis=1) > 0.7))
         self.assert_second_order("pressure around a line that injects:", errors)
+
+    def theis(self, flow, mesh, step, disturbed=1.0, processes=1):
+        """A well through the whole box, which leans; nothing flows along it. The error beside it, and what was injected."""
+        lean, rate, end = np.array([0.3, -0.2, 1.0]), 3.0 * disturbed, 0.4  # m^3/s in 1.2 m
+        shear = f"{{xx: {1 + lean[0] ** 2} m^2, yy: {1 + lean[1] ** 2} m^2, zz: 1 m^2, xy: {lean[0] * lean[1]} m^2, yz: {lean[1]} m^2, xz: {lean[0]} m^2}}"
+        places = ", ".join("[" + ", ".join(f"{float(c)!r} m" for c in np.array([0.11, 0.07, 0.0]) + z * lean) + "]" for z in (-0.6, 0.6))
+        results = self.run_scene(self.file_of(f"""
+name: theis_in_space
+geometry: {{box: {{x: [-4 m, 4 m], y: [-4 m, 4 m], z: [-0.6 m, 0.6 m]}}}}
+mesh: {mesh}
+components:
+  pore: {{type: matrix_flow/{flow}, permeability: {shear}, viscosity: 1 Pa*s, storage: 1 1/Pa, wells: {{line: {{points: [{places}], rate: {rate!r} m^3/s}}}}}}
+schedule: [{{solve: [pore]}}]
+time: {{end: {end} s, step: {step!r} s}}
+"""), processes=processes)
+        rock = results.fields()
+        # x - lean z and y - lean z have the equation of a plane.
+        seen = rock.centres[:, :2] - rock.centres[:, 2:] * lean[:2] - [0.11, 0.07]
+        distance = np.linalg.norm(seen, axis=1)
+        argument = distance ** 2 / (4 * end)
+        exact = 3.0 / 1.2 / (4 * np.pi) * np.vectorize(exponential_integral)(argument)
+        self.assertAlmostEqual(results.history["fluid_injected[m^3]"][-1], rate * end, delta=1e-12)
+        return self.error_of(rock, exact, (distance > 0.8) & (distance < 2.5)), rock["pore.pressure"]
+
+    def test_a_well_through_the_box(self):
+        """Theis: q/(4 pi) E1(r^2/(4 t)), in coordinates that lean with the well."""
+        for flow in ("mpfa", "rt0"):
+            errors = [self.theis(flow, f"{{kind: structured, shape: hexahedra, cells: [{n}, {n}, {n // 5}]}}", step)[0] for n, step in ((15, 0.02), (30, 0.005))]
+            self.assert_second_order(f"pressure around a well that leans, {flow}:", errors)
+
+    def test_twins_of_a_well_through_the_box(self):
+        _, rock = self.theis("mpfa", "{size: 0.7 m}", 0.1)
+        _, disturbed = self.theis("mpfa", "{size: 0.7 m}", 0.1, 1 + 1e-9)
+        self.assertLess(np.abs(disturbed - rock).max(), 3e-9 * np.abs(rock).max())
+        if MPIEXEC:
+            _, shared = self.theis("mpfa", "{size: 0.7 m, division: scattered}", 0.1, processes=2)
+            self.assertLess(np.abs(shared - rock).max(), 1e-9 * np.abs(rock).max())
 
 
 if __name__ == "__main__":

@@ -272,12 +272,13 @@ time: {{end: 1 s, step: 1 s}}
         """Structured rectangles and triangles of a plane, as hexahedra and wedges: (x, y) becomes (x, z)."""
         # A conductor and a barrier that cross; the barrier ends in the rock.
         lines = {"along": ([0, 0.5], [1, 0.5]), "up": ([0.5, 0], [0.5, 0.75])}
-        for flat, solid in (("triangles", "wedges"), ("quadrilaterals", "hexahedra")):
-            with self.subTest(solid):
+        for flat, solid, crossing in (("triangles", "wedges", ""), ("quadrilaterals", "hexahedra", ""), ("triangles", "wedges", "through: up"),
+                                      ("quadrilaterals", "hexahedra", "permeability: 1e-3 m^2")):
+            with self.subTest(solid, crossing=crossing):
                 # wedges are extruded along z: there the plane is that of x and y
                 depth = 2 if solid == "wedges" else 1
 
-                def text(dimension, depth=depth, flat=flat, solid=solid):
+                def text(dimension, depth=depth, flat=flat, solid=solid, crossing=crossing):
                     def place(point, deep):
                         numbers = list(point) if dimension == 2 else [point[0], *([point[1], deep] if depth == 2 else [deep, point[1]])]
                         return "[" + ", ".join(f"{c} m" for c in numbers) + "]"
@@ -313,6 +314,7 @@ components:
     transmissivity_value: {{fractures: {{along: 1e-2 m^3, up: 1e-8 m^3}}}}
     normal_permeability: constant
     normal_permeability_value: {{fractures: {{along: 1e3 m/(Pa*s), up: 1e-5 m/(Pa*s)}}}}
+    {f"crossings: {{x: {{{crossing}}}}}" if crossing else ""}
 couplers:
   - {{type: wall_exchange, between: [pore, conduit]}}
 schedule:

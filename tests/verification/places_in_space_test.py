@@ -138,6 +138,20 @@ class PlacesInSpace(SpaceRuns):
         results = self.run_text(text)
         self.assertAlmostEqual(sum(results[f"pore.{side}.outflow"][-1] for side in SIDES), 2e-3, delta=1e-12)
 
+    def test_wells_along_lines_say_what_is_wrong(self):
+        plane = {"f": [[0, 0, 0.45], [1, 0, 0.45], [1, 1.2, 0.45], [0, 1.2, 0.45]]}
+        for well, words, code in (("points: [[0.4 m, 0.7 m, 0.5 m], [0.4 m, 1.4 m, 0.5 m]]", "lies outside the rock (there is no cell at (0.4, 1.4, 0.5))", 2),
+                                  ("points: [[0.4 m, 0.7 m, 0.5 m]]", "does not say where the well is", 2), ("", "does not say where the well is", 2),
+                                  ("at: [0.4 m, 0.7 m, 0.5 m], points: [[0 m, 0 m, 0 m], [1 m, 1 m, 0.5 m]]", "does not say where the well is", 2),
+                                  ("points: [[0.2 m, 0.3 m, 0.45 m], [0.6 m, 0.3 m, 0.45 m]]", "lies on the fracture 'f'", 0),
+                                  ("points: [[0.2 m, 0.3 m, 0.2 m], [0.6 m, 0.3 m, 0.8 m], [0.7 m, 0.3 m, 0.3 m]]", "", 0)):
+            with self.subTest(well):
+                called = self.call("check", self.write(scene("{size: 0.3 m}", plane, rock_more=f"    wells: {{w: {{{well}{',' if well else ''} rate: 1 m^3/s}}}}\n")))
+                said = called.stdout + called.stderr
+                self.assertEqual(called.returncode, code, said)
+                self.assertIn(words, said)
+                self.assertEqual("on the fracture" in said, "on the fracture" in words)
+
 
 if __name__ == "__main__":
     unittest.main()

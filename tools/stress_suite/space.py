@@ -171,7 +171,7 @@ def geometry(p):
         lines += ["  regions:", *(f"    {name}: {text}" for name, text in p["regions"].items())]
     if p["part"]:
         spans = ", ".join(f"{axis}: [{a!r} m, {b!r} m]" for axis, (a, b) in p["part"]["spans"].items())
-        lines.append(f"  sides: {{part: {{on: {p['part']['side']}, {spans}}}}}")
+        lines.append(f"  sides: {{part: {{side: {p['part']['side']}, {spans}}}}}")
     if p["cells"]:
         return [*lines, f"mesh: {{kind: structured, shape: {p['mesh']}, cells: {p['cells']!r}}}"]
     gaps = ", gap_edges: 0" if p["gaps"] == "none" else ""
