@@ -182,6 +182,30 @@ output: {probes: {u: {of: rock.displacement, at: [2.6 m, 0.7 m]}, p: {of: pore.p
                     self.assertLess(difference(straight, turned, column), 1e-9, f"{name}, {angle}, {column}")
         self.assertEqual(len(set(answers)), len(forms))
 
+    def test_units_of_expressions_stay_where_they_are(self):
+        """Behind a group, a function or a name, or inside; x and y as numbers and as lengths. All forms are one pressure."""
+        straight = {}
+        for form in ("(3 + cos(pi*y)) Pa", "(3 + cos(pi*y/m)) Pa", "max(3 + cos(pi*y), 1) Pa", "3 Pa + cos(pi*y/m)*Pa", "3*Pa + cos(pi*y)*Pa",
+                     "exp(log(3 + cos(pi*y))) Pa", "y Pa", "(y/m) Pa", "y*Pa"):
+            scene = self.folder / f"{len(straight)}.yaml"
+            scene.write_text(f"""
+geometry: {{box: {{x: [0 m, 2 m], y: [0 m, 1 m]}}}}
+mesh: {{kind: structured, cells: [4, 3]}}
+components: {{pore: {{type: matrix_flow/mpfa, permeability: 1e-12 m^2, viscosity: 1 mPa*s, storage: 1e-9 1/Pa,
+              boundary: {{left: {{pressure: "{form}"}}, right: {{pressure: 1 Pa}}}}}}}}
+schedule: [{{solve: pore}}]
+time: {{end: 1 s, step: 1 s}}
+output: {{probes: {{p: {{of: pore.pressure, at: [0.3 m, 0.2 m]}}}}}}
+""", encoding="utf-8")
+            straight[form] = run(self.folder / f"{len(straight)}", scene)["p[Pa]"][-1]
+            file, _ = turn_scene.turn(scene, self.folder / f"{len(straight)}_turned", 40, (0.3, -0.2), (), PROGRAM)
+            turned = run(self.folder / f"{len(straight)}_results", scene, file)["p[Pa]"][-1]
+            self.assertAlmostEqual(turned / straight[form], 1, delta=1e-9, msg=form)
+        values = list(straight.values())
+        np.testing.assert_allclose(values[:6], values[0], rtol=1e-12)
+        np.testing.assert_allclose(values[6:], values[6], rtol=1e-12)
+        self.assertGreater(abs(values[0] / values[6] - 1), 0.1)
+
     def test_stiffness_turns_with_the_box(self):
         scene = self.folder / "scene.yaml"
         scene.write_text("""
