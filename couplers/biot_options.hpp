@@ -38,11 +38,16 @@ struct BiotOptions {
         {{"bulk", "the drained bulk modulus"},
          {"uniaxial", "lambda + 2 G: one pass is enough where the displacement is irrotational"},
          {"optimal",
-          "the harmonic mean of lambda + 2 G and the bulk modulus in the plane, lambda + G: the middle of what "
-          "pressures of any shape displace"},
-         {"found",
-          "between lambda + 2 G and lambda + G, as the volume of the rock has followed the pressure in the first "
-          "passes of each time step"}},
+          dimension == 2
+              ? "the harmonic mean of lambda + 2 G and the bulk modulus in the plane, lambda + G: the middle "
+                "of what pressures of any shape displace"
+              : "the harmonic mean of lambda + 2 G and the bulk modulus: the middle of what pressures of any "
+                "shape displace"},
+         {"found", dimension == 2
+                       ? "between lambda + 2 G and lambda + G, as the volume of the rock has followed the pressure in "
+                         "the first passes of each time step"
+                       : "between lambda + 2 G and the bulk modulus, as the volume of the rock has followed the "
+                         "pressure in the first passes of each time step"}},
         {.doc = "The modulus of the stabilization fixed_stress.",
          .source = "Kim, Tchelepi, Juanes 2011; Storvik, Both, Kumar, Nordbotten, Radu 2019"});
     spec.quantity("fixed_stress_value", fixed_stress_value,

@@ -6,7 +6,7 @@
 
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/principal_axes.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/linear/rigid_rotations.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
@@ -22,40 +22,47 @@ void check_sides(const Options& options, const Mesh& mesh) {
 
 /// "x", "y", or the components of a unit vector.
 std::string direction_text(Point direction) {
-  for (int k = 0; k < 2; ++k)
-    if (direction[1 - k] * direction[1 - k] <= round_off) return std::string(1, "xy"[k]);
+  for (int k = 0; k < dimension; ++k)
+    if ((direction - direction[k] * Point::Unit(k)).squaredNorm() <= round_off) return axis_names[k];
   if (direction.x() < 0) direction = -direction;
-  return fmt::format("({:.3g}, {:.3g})", direction.x(), direction.y());
+  std::string text;
+  for (const double component : direction) text += fmt::format("{}{:.3g}", text.empty() ? "(" : ", ", component);
+  return text + ")";
 }
 
 void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
-  // How prescribed displacements resist the rigid motions: along x, along y, and turning about the middle of the rock.
+  // How prescribed displacements resist the rigid motions: along the axes, and turning about the middle of the rock.
   Point middle = Point::Zero();
   for (const Point& center : mesh.cell_center) middle += center / mesh.cell_count();
   double size = 0;
   for (const Point& center : mesh.face_center) size = std::max(size, (center - middle).norm());
-  Eigen::Matrix3d resistance = Eigen::Matrix3d::Zero();
+  constexpr int motions = dimension + rigid_rotations(dimension);
+  Eigen::MatrixXd resistance = Eigen::MatrixXd::Zero(motions, motions);
   for (int f = 0; f < mesh.face_count(); ++f) {
     const SideCondition* condition = condition_of(options, mesh, f);
     if (!condition) continue;
     const Point arm = (mesh.face_center[f] - middle) / size;
     const Tensor axes = axes_of(condition->axes(), mesh.face_normal[f]);
-    for (int k = 0; k < 2; ++k) {
-      const Eigen::Vector3d motion(axes(0, k), axes(1, k), cross(arm, axes.col(k)));
+    for (int k = 0; k < dimension; ++k) {
+      Eigen::VectorXd motion(motions);
+      motion << axes.col(k), rotated(arm).transpose() * axes.col(k);
       if (condition->displacement_of(k)) resistance += motion * motion.transpose();
     }
   }
   const std::string add =
-      "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to 'boundary:', or "
-      "'displacement_normal: 0 m' to two sides that are not parallel";
-  const PrincipalAxes shifts = principal_axes(resistance.topLeftCorner<2, 2>());
-  if (shifts.values[0] <= round_off * shifts.values[1]) {
+      dimension == 2 ? "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to "
+                       "'boundary:', or 'displacement_normal: 0 m' to two sides that are not parallel"
+                     : "add for example 'left: {displacement_x: 0 m}', 'front: {displacement_y: 0 m}' and 'bottom: "
+                       "{displacement_z: 0 m}' to 'boundary:', or 'displacement_normal: 0 m' to three sides that are "
+                       "not parallel";
+  const PrincipalAxes shifts = principal_axes(resistance.topLeftCorner<dimension, dimension>());
+  if (shifts.values[0] <= round_off * shifts.values[dimension - 1]) {
     const std::string free = direction_text(shifts.axes.col(0));
     throw InputError(where, "nothing holds the rock along " + free,
                      "no side has a displacement in " + free + ", so that it may move freely", add);
   }
   const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(resistance);
-  if (eigenvalues[0] <= round_off * eigenvalues[2])
+  if (eigenvalues[0] <= round_off * eigenvalues[motions - 1])
     throw InputError(where, "nothing keeps the rock from turning",
                      "the displacements of its sides allow a small rotation about a point", add);
 }

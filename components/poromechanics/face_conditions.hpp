@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "framework/types.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -11,8 +11,8 @@ namespace sprekk::poromechanics {
 /// with two cells.
 enum class MechanicalCondition { none, displacement, traction, load };
 
-/// The directions of the conditions on a face: x and y, or those of the face itself, its normal out of the rock and its
-/// tangent (see axes_of).
+/// The directions of the conditions on a face: those of the coordinates, or those of the face itself, its normal out of
+/// the rock and its tangents (see axes_of).
 enum class ConditionAxes { of_space, of_face };
 
 /// What is prescribed in each direction of a face.
@@ -25,11 +25,11 @@ struct FaceConditions {
   bool operator==(const FaceConditions&) const = default;
 };
 
-/// The unit vectors of the directions, a column each. Those of a face are its normal and the tangent (-n_y, n_x), which
-/// has the rock on its left, as the frame of a fracture cell has.
+/// The unit vectors of the directions, a column each. Those of a face are its normal and its tangents, as in the frame
+/// of a fracture cell: in a plane (-n_y, n_x), which has the rock on its left.
 inline Tensor axes_of(ConditionAxes axes, const Point& normal) {
   if (axes == ConditionAxes::of_space) return Tensor::Identity();
-  return (Tensor() << normal.x(), -normal.y(), normal.y(), normal.x()).finished();
+  return (Tensor() << normal, tangents_of(normal)).finished();
 }
 
 }  // namespace sprekk::poromechanics

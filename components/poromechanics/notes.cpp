@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "components/poromechanics/check_conditions.hpp"
-#include "components/poromechanics/rock.hpp"
+#include "components/poromechanics/loaded_rock.hpp"
 #include "components/poromechanics/start_balance.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -32,13 +32,13 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
   };
   constexpr Stress stresses[] = {{"normal_stress", &SideCondition::normal_stress, 0},
                                  {"shear_stress", &SideCondition::shear_stress, 1}};
-  std::map<std::pair<std::string, std::string>, std::array<Share, 2>> overridden;  // of a side, by a stress
+  std::map<std::pair<std::string, std::string>, std::array<Share, dimension>> overridden;  // of a side, by a stress
   for (int f = 0; f < mesh.face_count(); ++f) {
     const SideCondition* condition = condition_of(options, mesh, f);
     if (!condition || condition->axes() == ConditionAxes::of_face) continue;
     const Tensor axes = axes_of(ConditionAxes::of_face, mesh.face_normal[f]);
     for (const Stress& stress : stresses)
-      for (int k = 0; k < 2; ++k) {
+      for (int k = 0; k < dimension; ++k) {
         Share& share = overridden[{mesh.side_names[mesh.face_side[f]], stress.name}][k];
         const std::optional<Data>& data = condition->*stress.data;
         share.all += mesh.face_measure[f];
@@ -51,8 +51,8 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
   };
   constexpr double square = 1e-6;  // normals of a side parallel to an axis differ from the axis by rounding only
   for (const auto& [side, condition] : options.boundary)
-    for (int k = 0; k < 2; ++k) {
-      const std::string direction(1, "xy"[k]);
+    for (int k = 0; k < dimension; ++k) {
+      const std::string direction = axis_names[k];
       for (const Stress& stress : stresses) {
         const Share& share = overridden[{side, stress.name}][k];
         if (share.length > square * share.all)
@@ -70,7 +70,8 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
   if (!options.gravity.is_zero() && options.rock_density.is_zero())
     note("gravity", origin,
          "gravity has no effect on '" + name +
-             "' (its rock_density is 0) give the density of the saturated rock, or 'gravity: [0, 0]' to the component");
+             "' (its rock_density is 0) give the density of the saturated rock, or 'gravity: " +
+             (dimension == 2 ? "[0, 0]" : "[0, 0, 0]") + "' to the component");
   if (options.gravity.is_zero() && !options.rock_density.is_zero())
     note("rock_density", origin,
          "'rock_density' of '" + name + "' has no effect (there is no gravity) give a gravity, or remove it");
@@ -90,7 +91,7 @@ void note_large_strain(Notes& notes, const std::string& name, const LargestStrai
                        const std::vector<Stiffness>& stiffness) {
   if (largest.strain <= options.large_strain) return;
   double softest = std::numeric_limits<double>::infinity();
-  for (const Stiffness& of_cell : stiffness) softest = std::min(softest, of_cell(2, 2));
+  for (const Stiffness& of_cell : stiffness) softest = std::min(softest, of_cell(dimension, dimension));
   if (softest < softest_rock) return;
   notes.add(
       name + " large strain",
@@ -98,40 +99,6 @@ void note_large_strain(Notes& notes, const std::string& name, const LargestStrai
                   "the rock is taken to be linear, and its shape to stay) look at loads and stiffness",
                   name, largest.strain, to_text(largest.place), options.large_strain),
       largest.strain);
-}
-
-void Rock::note_step(Notes& notes, const StepTime&) const {
-  // The relative displacement of neighbours over their distance: the displacement gradient along it.
-  LargestStrain largest;
-  const Vector& u = displacement_.now();
-  for (int f = 0; f < mesh_.face_count(); ++f) {
-    const auto& [first, second] = mesh_.face_cells[f];
-    if (second == none) continue;
-    if (stiffness_.excavation().is_removed(first) || stiffness_.excavation().is_removed(second)) continue;
-    const double distance = (mesh_.cell_center[second] - mesh_.cell_center[first]).norm();
-    const double strain =
-        (u.segment<dimension>(dimension * second) - u.segment<dimension>(dimension * first)).norm() / distance;
-    if (strain > largest.strain) largest = {strain, mesh_.face_center[f]};
-  }
-  note_large_strain(notes, name(), largest, options_, stiffness_.of_cells());
-}
-
-double Rock::largest_load() const {
-  double largest = 0;
-  const double unknown = std::numeric_limits<double>::infinity();
-  for (int f = 0; f < mesh_.face_count(); ++f) {
-    const Point initial = axes_of(conditions_[f].axes, mesh_.face_normal[f]).transpose() *
-                          Point(initial_forces_.segment<dimension>(dimension * f));
-    Point total = boundary_values_.segment<dimension>(dimension * f) + initial;
-    for (int k = 0; k < dimension; ++k) {
-      if (conditions_[f][k] != MechanicalCondition::displacement) continue;
-      if (boundary_values_[dimension * f + k] != 0) return unknown;
-      total[k] = 0;
-    }
-    largest = std::max(largest, initial.norm() / mesh_.face_measure[f]);
-    if (mesh_.face_cells[f][1] == none) largest = std::max(largest, total.norm() / mesh_.face_measure[f]);
-  }
-  return body_forces_.isZero(0) ? largest : unknown;
 }
 
 }  // namespace sprekk::poromechanics

@@ -1,6 +1,7 @@
 #include "components/poromechanics/options.hpp"
 
 #include "components/capabilities/usual_ranges.hpp"
+#include "components/poromechanics/stiffness.hpp"
 #include "framework/config/unknown_key.hpp"
 
 #include <algorithm>
@@ -8,7 +9,9 @@
 namespace sprekk::poromechanics {
 
 ConditionAxes SideCondition::axes() const {
-  return displacement_of_face[0] || displacement_of_face[1] ? ConditionAxes::of_face : ConditionAxes::of_space;
+  const bool is_of_face =
+      std::ranges::any_of(displacement_of_face, [](const auto& given) { return given.has_value(); });
+  return is_of_face ? ConditionAxes::of_face : ConditionAxes::of_space;
 }
 
 const Data* SideCondition::displacement_of(int direction) const {
@@ -20,7 +23,7 @@ const Data* SideCondition::displacement_of(int direction) const {
 Point SideCondition::traction_in(const StepTime& step, const Place& place, const Point& normal) const {
   Point total = Point::Zero();
   if (traction) total += value_in_step(*traction, place, step);
-  for (int k = 0; k < 2; ++k)
+  for (int k = 0; k < dimension; ++k)
     if (traction_along[k]) total[k] += value_in_step(*traction_along[k], place, step);
   if (normal_stress) total += value_in_step(*normal_stress, place, step) * normal;
   if (shear_stress) total += value_in_step(*shear_stress, place, step) * axes_of(ConditionAxes::of_face, normal).col(1);
@@ -39,7 +42,7 @@ std::vector<const Data*> SideCondition::data() const {
   };
   add(normal_stress);
   add(shear_stress);
-  for (int k = 0; k < 2; ++k) {
+  for (int k = 0; k < dimension; ++k) {
     add(displacement_along[k]);
     add(displacement_of_face[k]);
     add(traction_along[k]);
@@ -74,30 +77,42 @@ bool Options::loads_depend_on_time() const {
 
 SymmetricTensor Options::initial_stress_at(const Place& place) const {
   if (initial_stress.is_zero()) return SymmetricTensor::Zero();
-  const Tensor stress = initial_stress.at(place);
-  return SymmetricTensor(stress(0, 0), stress(1, 1), stress(0, 1));
+  return components_of(initial_stress.at(place));
 }
 
 namespace {
 
-void refuse_both(const Node& node, const char* one, const char* other) {
+constexpr bool in_plane = dimension == 2;
+constexpr const char* axes_in_words = in_plane ? "x and y" : "x, y and z";
+
+void refuse_both(const Node& node, const std::string& one, const std::string& other) {
   if (node.find(one) && node.find(other))
     throw InputError(node.origin, "contradictory boundary condition at '" + node.path + "'",
-                     std::string("both '") + one + "' and '" + other + "' are given for one direction",
-                     "remove one of them");
+                     "both '" + one + "' and '" + other + "' are given for one direction", "remove one of them");
 }
 
-/// Conditions along x and y beside displacements along the normal and the tangent.
+/// NAME, NAME_x, NAME_y, … of a vector and its components.
+std::vector<std::string> vector_names(const std::string& name) {
+  std::vector<std::string> names{name};
+  for (const char* axis : axis_names) names.push_back(name + "_" + axis);
+  return names;
+}
+
+/// Conditions along the coordinates beside displacements along the normal and the tangent.
 void refuse_two_frames(const Node& node) {
+  std::vector<std::string> of_coordinates = vector_names("displacement");
+  for (const std::string& name : vector_names("traction")) of_coordinates.push_back(name);
   for (const char* of_face : {"displacement_normal", "displacement_tangential"})
-    for (const char* of_space :
-         {"displacement", "displacement_x", "displacement_y", "traction", "traction_x", "traction_y"})
+    for (const std::string& of_space : of_coordinates)
       if (node.find(of_face) && node.find(of_space))
         throw InputError(node.origin, "contradictory boundary condition at '" + node.path + "'",
-                         std::string("'") + of_face + "' is along the normal or the tangent of the side, and '" +
-                             of_space + "' along x and y",
-                         "use one frame: 'displacement_normal', 'displacement_tangential', 'normal_stress' and "
-                         "'shear_stress', or conditions in x and y");
+                         std::string("'") + of_face + "' is along the normal " + (in_plane ? "or the tangent " : "") +
+                             "of the side, and '" + of_space + "' along " + axes_in_words,
+                         std::string("use one frame: ") +
+                             (in_plane ? "'displacement_normal', 'displacement_tangential', 'normal_stress' and "
+                                         "'shear_stress'"
+                                       : "'displacement_normal' and 'normal_stress'") +
+                             ", or conditions in " + axes_in_words);
 }
 
 Spec side_spec(SideCondition& side) {
@@ -105,46 +120,55 @@ Spec side_spec(SideCondition& side) {
       "boundary condition of mechanics", "pressure",
       "write 'normal_stress: -1 MPa' for a load of 1 MPa (compression is negative); the pressure of a fluid is "
       "a condition of its flow");
+  if constexpr (!in_plane) {
+    write_instead("boundary condition of mechanics", "displacement_tangential",
+                  "a side in space has two tangents: write 'displacement_x', 'displacement_y' and 'displacement_z', or "
+                  "'displacement: [0, 0, 0]' to hold it");
+    write_instead("boundary condition of mechanics", "shear_stress",
+                  "a side in space has two tangents: write 'traction: [x, y, z]'");
+  }
   Spec spec("boundary condition of mechanics",
             "Per direction a displacement or a total traction; a direction without either is free of traction.");
   spec.vector("displacement", side.displacement,
-              {.unit = "m", .doc = "Displacement in both directions.", .in_time = true});
-  spec.data("displacement_x", side.displacement_along[0],
-            {.unit = "m", .doc = "Displacement in x; 0 is a roller.", .in_time = true});
-  spec.data("displacement_y", side.displacement_along[1],
-            {.unit = "m", .doc = "Displacement in y; 0 is a roller.", .in_time = true});
+              {.unit = "m",
+               .doc = in_plane ? "Displacement in both directions." : "Displacement in all directions.",
+               .in_time = true});
+  for (int k = 0; k < dimension; ++k)
+    spec.data(
+        std::string("displacement_") + axis_names[k], side.displacement_along[k],
+        {.unit = "m", .doc = std::string("Displacement in ") + axis_names[k] + "; 0 is a roller.", .in_time = true});
   spec.data("displacement_normal", side.displacement_of_face[0],
             {.unit = "m",
              .doc = "Displacement along the outward normal of a side of any direction; 0 is a roller.",
              .in_time = true});
-  spec.data("displacement_tangential", side.displacement_of_face[1],
-            {.unit = "m", .doc = "Displacement along the side, positive with the rock on the left.", .in_time = true});
+  if constexpr (in_plane)
+    spec.data(
+        "displacement_tangential", side.displacement_of_face[1],
+        {.unit = "m", .doc = "Displacement along the side, positive with the rock on the left.", .in_time = true});
   spec.vector("traction", side.traction,
               {.unit = "Pa", .doc = "Total traction sigma·n, n out of the rock.", .in_time = true});
-  spec.data("traction_x", side.traction_along[0], {.unit = "Pa", .doc = "Total traction in x.", .in_time = true});
-  spec.data("traction_y", side.traction_along[1], {.unit = "Pa", .doc = "Total traction in y.", .in_time = true});
+  for (int k = 0; k < dimension; ++k)
+    spec.data(std::string("traction_") + axis_names[k], side.traction_along[k],
+              {.unit = "Pa", .doc = std::string("Total traction in ") + axis_names[k] + ".", .in_time = true});
   spec.data("normal_stress", side.normal_stress,
             {.unit = "Pa",
              .doc = "Total traction along the outward normal; tension is positive, a load is negative.",
              .in_time = true});
-  spec.data(
-      "shear_stress", side.shear_stress,
-      {.unit = "Pa", .doc = "Total traction along the side, positive with the rock on the left.", .in_time = true});
+  if constexpr (in_plane)
+    spec.data(
+        "shear_stress", side.shear_stress,
+        {.unit = "Pa", .doc = "Total traction along the side, positive with the rock on the left.", .in_time = true});
   spec.check([](const Node& node) {
-    refuse_both(node, "displacement", "displacement_x");
-    refuse_both(node, "displacement", "displacement_y");
-    refuse_both(node, "displacement", "traction");
-    refuse_both(node, "displacement", "traction_x");
-    refuse_both(node, "displacement", "traction_y");
-    refuse_both(node, "displacement", "normal_stress");
-    refuse_both(node, "displacement", "shear_stress");
+    const std::vector<std::string> displacements = vector_names("displacement"), tractions = vector_names("traction");
+    for (int k = 1; k <= dimension; ++k) refuse_both(node, displacements[0], displacements[k]);
+    for (const std::string& traction : tractions) refuse_both(node, displacements[0], traction);
+    refuse_both(node, displacements[0], "normal_stress");
+    refuse_both(node, displacements[0], "shear_stress");
     refuse_two_frames(node);
     refuse_both(node, "displacement_normal", "normal_stress");
     refuse_both(node, "displacement_tangential", "shear_stress");
-    refuse_both(node, "displacement_x", "traction_x");
-    refuse_both(node, "displacement_y", "traction_y");
-    refuse_both(node, "traction", "traction_x");
-    refuse_both(node, "traction", "traction_y");
+    for (int k = 1; k <= dimension; ++k) refuse_both(node, displacements[k], tractions[k]);
+    for (int k = 1; k <= dimension; ++k) refuse_both(node, tractions[0], tractions[k]);
   });
   return spec;
 }
@@ -167,20 +191,19 @@ void Options::declare_stiffness(Spec& spec) {
              .material = true,
              .in_time = true});
   usually(spec, "poisson_ratio", usual_poisson_ratio());
-  Spec tensor("stiffness", "Plane-strain stiffness of an anisotropic rock, instead of the two moduli.");
-  const auto entry = [&](const char* name, Data& target, bool required) {
-    tensor.data(name, target,
+  Spec tensor("stiffness", std::string(in_plane ? "Plane-strain stiffness" : "Stiffness") +
+                               " of an anisotropic rock, instead of the two moduli.");
+  const auto entry = [&](int row, int column) {
+    const std::string name = symmetric_name(row) + symmetric_name(column);
+    tensor.data(name, stiffness.entry[AnisotropicStiffness::number_of(row, column)],
                 {.unit = "Pa",
-                 .doc = std::string("Entry ") + name + " of the stiffness.",
-                 .required = required,
+                 .doc = "Entry " + name + " of the stiffness.",
+                 .required = row == column || column < dimension,
                  .in_time = true});
   };
-  entry("xxxx", stiffness.xxxx, true);
-  entry("yyyy", stiffness.yyyy, true);
-  entry("xyxy", stiffness.xyxy, true);
-  entry("xxyy", stiffness.xxyy, true);
-  entry("xxxy", stiffness.xxxy, false);
-  entry("yyxy", stiffness.yyxy, false);
+  for (int k = 0; k < symmetric_components; ++k) entry(k, k);
+  for (int row = 0; row < symmetric_components; ++row)
+    for (int column = row + 1; column < symmetric_components; ++column) entry(row, column);
   spec.section("stiffness", tensor, {.doc = "Of an anisotropic rock."}, &is_anisotropic);
   spec.data("bulk_modulus", bulk_modulus,
             {.unit = "Pa",
@@ -226,13 +249,13 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                 {.range = positive(),
                  .doc = "A note tells of strains above this: the model is linear, and keeps the shape of the rock."});
   static SideCondition example;
-  spec.named_sections(
-      "boundary", side_spec(example),
-      [this](const std::string& key, const Origin& origin) {
-        boundary[key].origin = origin;
-        return side_spec(boundary[key]);
-      },
-      {.doc = "Conditions by the name of the side (left, right, bottom, top, or of the imported mesh)."});
+  spec.named_sections("boundary", side_spec(example),
+                      [this](const std::string& key, const Origin& origin) {
+                        boundary[key].origin = origin;
+                        return side_spec(boundary[key]);
+                      },
+                      {.doc = std::string("Conditions by the name of the side (left, right, ") +
+                              (in_plane ? "" : "front, back, ") + "bottom, top, or of the imported mesh)."});
   add_excavation(spec, excavation);
   spec.check([this](const Node& node) {
     if (!is_anisotropic && (!young_modulus || !poisson_ratio))

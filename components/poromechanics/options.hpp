@@ -15,17 +15,17 @@
 namespace sprekk::poromechanics {
 
 /// The condition on one side: a displacement or a traction in each direction; a direction without either is free of
-/// traction. Normal and shear stress act in addition to tractions. Displacements are either along x and y or along the
-/// normal and the tangent of each face (ConditionAxes).
+/// traction. Normal and shear stress act in addition to tractions. Displacements are either along the coordinates or
+/// along the normal and the tangent of each face (ConditionAxes); in space tangents have no names.
 struct SideCondition {
   Origin origin;
-  std::optional<VectorData> displacement;                   ///< m
-  std::array<std::optional<Data>, 2> displacement_along;    ///< m; displacement_x, displacement_y
-  std::array<std::optional<Data>, 2> displacement_of_face;  ///< m; displacement_normal, displacement_tangential
-  std::optional<VectorData> traction;                       ///< Pa
-  std::array<std::optional<Data>, 2> traction_along;        ///< Pa
-  std::optional<Data> normal_stress;                        ///< Pa, tension positive
-  std::optional<Data> shear_stress;                         ///< Pa, along the tangent
+  std::optional<VectorData> displacement;                           ///< m
+  std::array<std::optional<Data>, dimension> displacement_along;    ///< m; displacement_x, displacement_y, …
+  std::array<std::optional<Data>, dimension> displacement_of_face;  ///< m; displacement_normal, displacement_tangential
+  std::optional<VectorData> traction;                               ///< Pa
+  std::array<std::optional<Data>, dimension> traction_along;        ///< Pa
+  std::optional<Data> normal_stress;                                ///< Pa, tension positive
+  std::optional<Data> shear_stress;                                 ///< Pa, along the tangent of a plane
 
   ConditionAxes axes() const;
   /// The displacement of a direction of axes(), if it is prescribed.
@@ -37,9 +37,17 @@ struct SideCondition {
   std::vector<const Data*> data() const;
 };
 
-/// Plane-strain stiffness of an anisotropic rock, Pa.
+/// Stiffness of an anisotropic rock, in plane strain or in space, Pa: rows and columns as a Stiffness has them.
 struct AnisotropicStiffness {
-  Data xxxx, yyyy, xyxy, xxyy, xxxy, yyxy;
+  static constexpr int entries = symmetric_components * (symmetric_components + 1) / 2;
+  /// Entry (row, column), row <= column, is number_of(row, column): the diagonal, then row by row what is to its right.
+  std::array<Data, entries> entry;
+  static constexpr int number_of(int row, int column) {
+    if (row == column) return row;
+    int number = symmetric_components;
+    for (int above = 0; above < row; ++above) number += symmetric_components - 1 - above;
+    return number + column - row - 1;
+  }
 };
 
 /// Parameters of the deformation of the rock.
@@ -62,7 +70,7 @@ struct Options {
   bool has_body_force() const;
   /// The weight and the body force of rock that is whole, during a step, N/m^3.
   Point body_force_in(const StepTime& step, const Place& place) const;
-  /// The initial stress at a place, Pa, (xx, yy, xy).
+  /// The initial stress at a place, Pa.
   SymmetricTensor initial_stress_at(const Place& place) const;
   /// `type`, `doc`: of the component with its discretization.
   Spec spec(const std::string& type, const std::string& doc);

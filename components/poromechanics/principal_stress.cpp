@@ -3,25 +3,49 @@
 #include <cmath>
 #include <utility>
 
+#include "framework/discretization/principal_axes.hpp"
+
 namespace sprekk::poromechanics {
 namespace {
 
 constexpr double alike = 1e-11;      // radius of Mohr's circle, of the mean stress: a direction would be round-off
 constexpr double first_axis = 1e-6;  // two components that differ by less count as equal
 
-}  // namespace
+/// With the sign of its largest component.
+Point with_sign(const Point& direction) {
+  int largest = 0;
+  for (int k = 1; k < dimension; ++k)
+    if (std::abs(direction[k]) * (1 - first_axis) > std::abs(direction[largest])) largest = k;
+  return direction[largest] < 0 ? Point(-direction) : direction;
+}
 
-PrincipalStress principal_stress(const SymmetricTensor& stress) {
-  static_assert(dimension == 2);
+PrincipalStress principal_in_plane(const SymmetricTensor& stress) {
   const double mean = 0.5 * (stress[0] + stress[1]), half = 0.5 * (stress[0] - stress[1]);
   const double radius = std::hypot(half, stress[2]);  // of Mohr's circle
   // The largest eigenvalue has the direction at half the angle; the smallest one is at a right angle to it.
   const double angle = 0.5 * std::atan2(stress[2], half);
-  Point direction(-std::sin(angle), std::cos(angle));
+  Point direction = Point::Zero();
+  direction.head<2>() << -std::sin(angle), std::cos(angle);
   if (radius <= alike * std::abs(mean)) direction.setZero();
-  const int larger = std::abs(direction.y()) * (1 - first_axis) > std::abs(direction.x()) ? 1 : 0;
-  if (direction[larger] < 0) direction = -direction;
-  return {mean - radius, mean + radius, direction};
+  return {mean - radius, mean + radius, with_sign(direction)};
+}
+
+PrincipalStress principal_in_space(const SymmetricTensor& stress) {
+  Tensor tensor;
+  for (int k = 0; k < symmetric_components; ++k) {
+    const auto [i, j] = symmetric_axes[k];
+    tensor(i, j) = tensor(j, i) = stress[k];
+  }
+  const PrincipalAxes principal = principal_axes(tensor);
+  const Point& values = principal.values;
+  const bool has_direction = values[1] - values[0] > 2 * alike * values.cwiseAbs().maxCoeff();
+  return {values[0], values[dimension - 1], has_direction ? with_sign(principal.axes.col(0)) : Point(Point::Zero())};
+}
+
+}  // namespace
+
+PrincipalStress principal_stress(const SymmetricTensor& stress) {
+  return dimension == 2 ? principal_in_plane(stress) : principal_in_space(stress);
 }
 
 void output_stress(const std::string& owner, Vector stress, std::vector<OutputField>& fields) {

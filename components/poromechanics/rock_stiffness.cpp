@@ -24,7 +24,7 @@ RockStiffness::RockStiffness(const Options& options, const Mesh& mesh, double st
   }
   if (options_.is_anisotropic) {
     bulk_modulus_ = Property(options_.bulk_modulus.value_or(0), places, start_time);
-    moduli_.resize(6);
+    moduli_.resize(AnisotropicStiffness::entries);
   }
   compute();
 }
@@ -53,7 +53,7 @@ void RockStiffness::compute() {
 std::optional<LameParameters> RockStiffness::lame(int cell) const {
   SPREKK_EXPECT(is_index(cell, static_cast<int>(stiffness_.size())), cell, stiffness_.size());
   if (options_.is_anisotropic) return std::nullopt;
-  return LameParameters{stiffness_[cell](0, 1), stiffness_[cell](2, 2)};
+  return LameParameters{stiffness_[cell](0, 1), stiffness_[cell](dimension, dimension)};
 }
 
 Stiffness RockStiffness::at(int c) const {
@@ -61,9 +61,10 @@ Stiffness RockStiffness::at(int c) const {
     const double young = moduli_[0][c], poisson = moduli_[1][c];
     return isotropic_stiffness(young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson)));
   }
-  const double xxyy = moduli_[3][c], xxxy = moduli_[4][c], yyxy = moduli_[5][c];
   Stiffness stiffness;
-  stiffness << moduli_[0][c], xxyy, xxxy, xxyy, moduli_[1][c], yyxy, xxxy, yyxy, moduli_[2][c];
+  for (int row = 0; row < symmetric_components; ++row)
+    for (int column = row; column < symmetric_components; ++column)
+      stiffness(row, column) = stiffness(column, row) = moduli_[AnisotropicStiffness::number_of(row, column)][c];
   const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(stiffness);
   if (eigenvalues[0] <= 0)
     throw DataError(InputError(origin_, "the stiffness of component '" + component_ + "' is not positive definite",
@@ -76,8 +77,8 @@ Stiffness RockStiffness::at(int c) const {
 
 std::vector<const Data*> RockStiffness::data() const {
   if (!options_.is_anisotropic) return {&*options_.young_modulus, &*options_.poisson_ratio};
-  const AnisotropicStiffness& s = options_.stiffness;
-  std::vector<const Data*> data = {&s.xxxx, &s.yyyy, &s.xyxy, &s.xxyy, &s.xxxy, &s.yyxy};
+  std::vector<const Data*> data;
+  for (const Data& entry : options_.stiffness.entry) data.push_back(&entry);
   if (options_.bulk_modulus) data.push_back(&*options_.bulk_modulus);
   return data;
 }

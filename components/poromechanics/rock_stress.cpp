@@ -1,4 +1,5 @@
 // Forces, stress and displacements of sides that follow from the state of the rock.
+#include "components/poromechanics/notes.hpp"
 #include "components/poromechanics/principal_stress.hpp"
 #include "components/poromechanics/rock.hpp"
 #include "components/poromechanics/stress_without_displacement.hpp"
@@ -52,6 +53,40 @@ Vector Rock::mean_stress() const {
   }
   exchange(mesh_, Location::cell, 3, stress);
   return stress;
+}
+
+void Rock::note_step(Notes& notes, const StepTime&) const {
+  // The relative displacement of neighbours over their distance: the displacement gradient along it.
+  LargestStrain largest;
+  const Vector& u = displacement_.now();
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const auto& [first, second] = mesh_.face_cells[f];
+    if (second == none) continue;
+    if (stiffness_.excavation().is_removed(first) || stiffness_.excavation().is_removed(second)) continue;
+    const double distance = (mesh_.cell_center[second] - mesh_.cell_center[first]).norm();
+    const double strain =
+        (u.segment<dimension>(dimension * second) - u.segment<dimension>(dimension * first)).norm() / distance;
+    if (strain > largest.strain) largest = {strain, mesh_.face_center[f]};
+  }
+  note_large_strain(notes, name(), largest, options_, stiffness_.of_cells());
+}
+
+double Rock::largest_load() const {
+  double largest = 0;
+  const double unknown = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const Point initial = axes_of(conditions_[f].axes, mesh_.face_normal[f]).transpose() *
+                          Point(initial_forces_.segment<dimension>(dimension * f));
+    Point total = boundary_values_.segment<dimension>(dimension * f) + initial;
+    for (int k = 0; k < dimension; ++k) {
+      if (conditions_[f][k] != MechanicalCondition::displacement) continue;
+      if (boundary_values_[dimension * f + k] != 0) return unknown;
+      total[k] = 0;
+    }
+    largest = std::max(largest, initial.norm() / mesh_.face_measure[f]);
+    if (mesh_.face_cells[f][1] == none) largest = std::max(largest, total.norm() / mesh_.face_measure[f]);
+  }
+  return body_forces_.isZero(0) ? largest : unknown;
 }
 
 }  // namespace sprekk::poromechanics

@@ -11,8 +11,8 @@ namespace sprekk::poromechanics {
 
 /// The state in which u = 0. Its stress stays as it is, whatever the stiffness becomes later.
 struct SettledRock {
-  Vector forces;         ///< total forces on faces, N/m, (x, y); or those of the stress of each cell (FemRock)
-  Vector stress;         ///< total stress of each cell, Pa, (xx, yy, xy)
+  Vector forces;         ///< total forces on faces, N/m; or those of the stress of each cell (FemRock)
+  Vector stress;         ///< total stress of each cell, Pa
   Vector displacements;  ///< m, prescribed displacements, counted from the state before
 
   /// The state as named values of the component `name`, for checkpoints.

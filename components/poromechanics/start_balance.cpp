@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "components/poromechanics/check_conditions.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
@@ -75,9 +76,13 @@ class Start {
     for (int k = 0; k < dimension; ++k)
       if (condition && condition->displacement_of(k)) difference[k] = 0;
     if (difference.norm() <= worst.stress) return;
-    // + 0.0: no -0 in the text.
+    // + 0.0: no -0 in the text. In space the stress along a side has a direction, too; the difference may be in it.
     const Tensor along = axes_of(ConditionAxes::of_face, normal);
-    const Point of_rock = along.transpose() * initial, of_side = along.transpose() * given;
+    const auto normal_and_shear = [&](const Point& stress) {
+      const Point of_face = along.transpose() * stress;
+      return std::array{of_face[0], dimension == 2 ? of_face[1] : of_face.tail<dimension - 1>().norm()};
+    };
+    const auto of_rock = normal_and_shear(initial), of_side = normal_and_shear(given);
     worst = {
         difference.norm(), mesh_.face_center[face],
         fmt::format("on side '{}' the initial stress is {:.4g} MPa along its normal and {:.4g} MPa along the side, "

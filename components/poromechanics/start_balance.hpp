@@ -11,9 +11,9 @@ namespace sprekk::poromechanics {
 
 /// What acts on rock at a place and is balanced by nothing before the rock deforms.
 struct Imbalance {
-  double stress = 0;    ///< Pa
-  Point at{0, 0};       ///< where it is largest
-  std::string because;  ///< what does not fit what, with figures
+  double stress = 0;         ///< Pa
+  Point at = Point::Zero();  ///< where it is largest
+  std::string because;       ///< what does not fit what, with figures
 };
 
 /// The largest imbalance of the data at a time (s): on sides, of what they give against the initial stress, in

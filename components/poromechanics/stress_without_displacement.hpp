@@ -7,8 +7,8 @@
 namespace sprekk::poromechanics {
 
 /// The total stress of each cell where the displacement is zero: the initial stress plus that of the pore pressures,
-/// Pa, (xx, yy, xy). It is known before anything has been discretized, when sides and walls have no load yet.
-/// `pore_stress`: what pore pressures add to xx and yy, Pa.
+/// Pa. It is known before anything has been discretized, when sides and walls have no load yet.
+/// `pore_stress`: what pore pressures add to its diagonal, Pa.
 Vector stress_without_displacement(const Mesh& mesh, const Options& options, const Vector& pore_stress);
 
 }  // namespace sprekk::poromechanics

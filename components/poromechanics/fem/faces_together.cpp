@@ -26,10 +26,16 @@ auto block(auto& matrix, int i, int j) {
 
 /// The inverse of a stiffness in the directions that are not held.
 Tensor free_compliance(const Tensor& stiffness, const HeldDirections& held) {
-  if (held.is_held[0] && held.is_held[1]) return Tensor::Zero();
   if (held.is_free()) return stiffness.inverse();
-  const Point free = held.axes.col(held.is_held[0] ? 1 : 0);
-  return free * free.transpose() / free.dot(stiffness * free);
+  Eigen::Matrix<double, dimension, Eigen::Dynamic> free(dimension, 0);
+  for (int k = 0; k < dimension; ++k)
+    if (!held.is_held[k]) {
+      free.conservativeResize(Eigen::NoChange, free.cols() + 1);
+      free.rightCols<1>() = held.axes.col(k);
+    }
+  if (free.cols() == 0) return Tensor::Zero();
+  if (free.cols() == 1) return free * free.transpose() / free.col(0).dot(stiffness * free.col(0));
+  return free * DenseCholesky(free.transpose() * stiffness * free).solve_columns(free.transpose());
 }
 
 /// As FacesTogether::Displaced, of the faces of one group.
@@ -65,8 +71,9 @@ FacesTogether::FacesTogether(const RawDisplacement& raw, std::vector<int> groups
     : raw_(raw), groups_(std::move(groups)), alone_(raw.mesh.face_count(), Tensor::Zero()) {}
 
 void FacesTogether::add(int cell, const Eigen::MatrixXd& of_unknowns) {
-  const Ring& faces = raw_.mesh.cell_faces[cell];
+  const CellFaces& faces = raw_.mesh.cell_faces[cell];
   const int count = faces.size(), size = dimension * count;
+  const bool can_bend = raw_.mesh.cell_nodes[cell].size() > dimension + 1;  // strains vary where faces have no forces
   const Eigen::MatrixXd together = of_unknowns.bottomRightCorner(size, size);
   Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(size, size);
   bool is_one_set = true;
@@ -77,7 +84,7 @@ void FacesTogether::add(int cell, const Eigen::MatrixXd& of_unknowns) {
       if (is_same_set) block(alone, i, j) = block(together, i, j);
       is_one_set = is_one_set && is_same_set;
     }
-  const double factor = is_one_set ? 1 : (count == 4 ? kept_of_bending : 1) * largest_ratio(together, alone);
+  const double factor = is_one_set ? 1 : (can_bend ? kept_of_bending : 1) * largest_ratio(together, alone);
   for (int i = 0; i < count; ++i) {
     if (groups_[faces[i]] == none) {
       alone_[faces[i]] += factor * block(alone, i, i);

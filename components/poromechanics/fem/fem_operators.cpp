@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "components/poromechanics/fem/face_functions.hpp"
 #include "components/poromechanics/fem/faces_together.hpp"
 #include "components/poromechanics/fem/sparse_blocks.hpp"
 #include "components/poromechanics/fem/volumetric_split.hpp"
@@ -18,7 +19,7 @@ struct RawStiffness {
   SparseMatrix matrix;
   std::vector<Tensor> of_face;  ///< N/m per m
   FacesTogether together;       ///< at first order
-  std::vector<Eigen::Matrix2Xd> of_interior;
+  std::vector<CellPoint::Gradients> of_interior;
 };
 
 RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& tips,
@@ -34,12 +35,12 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
     CellStiffness of_cell = cell_stiffness(cell_points(mesh, c, tips), stiffness[c],
                                            is_second ? ElementOrder::second : ElementOrder::first);
     const std::vector<int> first = raw.of_cell(c);
-    const int count = static_cast<int>(first.size()), corners = mesh.cell_nodes[c].size();
+    const int count = static_cast<int>(first.size()), faces = mesh.cell_faces[c].size();
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j)
         put(entries, first[i], first[j], of_cell.of_unknowns.block<dimension, dimension>(dimension * i, dimension * j));
-    for (int k = 0; k < corners; ++k) {
-      const int at = dimension * (corners + k);
+    for (int k = 0; k < faces; ++k) {
+      const int at = dimension * (count - faces + k);
       result.of_face[mesh.cell_faces[c][k]] += of_cell.of_unknowns.block<dimension, dimension>(at, at);
     }
     if (order == ElementOrder::first) result.together.add(c, of_cell.of_unknowns);
@@ -65,21 +66,18 @@ SparseMatrix linear_functions(const RawDisplacement& raw, const std::vector<int>
   return made(raw.size(), unknowns, entries);
 }
 
-/// div u integrated over cells: by the means over faces, since the sides of cells are straight.
+/// div u integrated over cells: by what flows through their faces.
 SparseMatrix volume_of(const RawDisplacement& raw, const std::vector<int>& tips) {
   const Mesh& mesh = raw.mesh;
   std::vector<Triplet> entries;
   for (int f = 0; f < mesh.face_count(); ++f) {
-    const std::array<double, 2> means = means_of_ends(mesh, tips, f);
+    const std::vector<FaceFunction> functions = face_functions(raw, tips, f);
     for (int side = 0; side < 2; ++side) {
       const int cell = mesh.face_cells[f][side];
       if (cell == none) continue;
-      const Point out = (side == 0 ? 1 : -1) * mesh.face_measure[f] * mesh.face_normal[f];
-      for (int k = 0; k < dimension; ++k) {
-        for (int end = 0; end < 2; ++end)
-          entries.emplace_back(cell, raw.of_node(mesh.face_nodes[f][end]) + k, means[end] * out[k]);
-        entries.emplace_back(cell, raw.of_face(f) + k, mean_of_face * out[k]);
-      }
+      for (const FaceFunction& function : functions)
+        for (int k = 0; k < dimension; ++k)
+          entries.emplace_back(cell, function.coefficient + k, (side == 0 ? 1 : -1) * function.flow[k]);
     }
   }
   return made(mesh.cell_count(), raw.size(), entries);
@@ -91,17 +89,12 @@ SparseMatrix jump_of(const RawDisplacement& raw, const std::vector<int>& tips) {
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
     for (int side = 0; side < 2; ++side) {
-      const std::array<double, 2> means = means_of_ends(mesh, tips, cell.faces[side]);
-      for (int k = 0; k < dimension; ++k) {
-        const Point local = (side == 0 ? -1 : 1) * cell.to_local(Point::Unit(k));
-        for (int axis = 0; axis < dimension; ++axis) {
-          const int row = dimension * i + axis;
-          for (int end = 0; end < 2; ++end)
-            entries.emplace_back(row, raw.of_node(mesh.face_nodes[cell.faces[side]][end]) + k,
-                                 means[end] * local[axis]);
-          entries.emplace_back(row, raw.of_face(cell.faces[side]) + k, mean_of_face * local[axis]);
+      for (const FaceFunction& function : face_functions(raw, tips, cell.faces[side]))
+        for (int k = 0; k < dimension; ++k) {
+          const Point local = (side == 0 ? -1 : 1) * cell.to_local(Point::Unit(k));
+          for (int axis = 0; axis < dimension; ++axis)
+            entries.emplace_back(dimension * i + axis, function.coefficient + k, function.mean * local[axis]);
         }
-      }
     }
   }
   return made(dimension * mesh.fracture_cell_count(), raw.size(), entries);
@@ -168,12 +161,15 @@ Rows rows_of(const RawDisplacement& raw, const SparseMatrix& linear, const Spars
           made(unknowns, raw.size(), given)};
 }
 
-Vector compliance_of_walls(const Mesh& mesh, const std::vector<Tensor>& stiffness_of_face) {
+Vector compliance_of_walls(const RawDisplacement& raw, const std::vector<int>& tips,
+                           const std::vector<Tensor>& stiffness_of_face) {
+  const Mesh& mesh = raw.mesh;
   Vector compliance = Vector::Zero(dimension * mesh.fracture_cell_count());
   for (int i = 0; i < mesh.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh.fracture_cells[i];
     for (const int face : cell.faces) {
       const Tensor alone = stiffness_of_face[face].inverse();
+      const double mean_of_face = face_functions(raw, tips, face).back().mean;
       for (int axis = 0; axis < dimension; ++axis) {
         const Point direction = cell.to_global(Point::Unit(axis));
         compliance[dimension * i + axis] +=
@@ -231,7 +227,7 @@ FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiff
   RawStiffness forces = raw_stiffness(raw, result.tips, split.kept, order);
   result.volume = volume_of(raw, result.tips);
   result.jump = jump_of(raw, result.tips);
-  result.wall_compliance = compliance_of_walls(mesh, forces.of_face);
+  result.wall_compliance = compliance_of_walls(raw, result.tips, forces.of_face);
   const SparseMatrix traction = forces_of_traction(mesh, result.jump);
   result.all = all_coefficients(raw, linear, forces, held, result.volume, traction, order);
   const LinearInFem& all = result.all;

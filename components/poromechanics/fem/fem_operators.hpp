@@ -12,8 +12,8 @@
 namespace sprekk::poromechanics {
 
 /// A quantity as a linear function of
-/// - u, the unknowns: displacements (x, y) of every node, m; at second order then (x, y) of every face, m; at first
-///   order, with a volumetric stress, then that of every cell, Pa;
+/// - u, the unknowns: displacements of every node, m; at second order then of every face, m; at first order, with a
+///   volumetric stress, then that of every cell, Pa;
 /// - s, the isotropic stress of every cell, Pa (sigma = C : grad u − s I);
 /// - T, the traction on the plus wall of every fracture cell, Pa, (normal, tangential); opposite on the minus wall;
 /// - F, the forces on all coefficients of the displacement (RawDisplacement), N/m;
@@ -31,8 +31,8 @@ struct FemOperators {
   SparseMatrix volume;     ///< div u integrated over every cell, of all coefficients, m^2
   SparseMatrix jump;       ///< mean of u(minus) − u(plus) over every fracture cell, (normal, tangential), of all, m
   Vector wall_compliance;  ///< how a traction on walls moves the functions of their faces alone, m/Pa, as `jump`
-  std::vector<Eigen::Matrix2Xd> of_interior;  ///< see CellStiffness
-  std::vector<int> tips;                      ///< see tips_of_faces
+  std::vector<CellPoint::Gradients> of_interior;  ///< see CellStiffness
+  std::vector<int> tips;                          ///< see tips_of_faces
 };
 
 /// Assembles the stiffness of a mesh. At second order every coefficient is an unknown. At first order those of faces
@@ -40,10 +40,10 @@ struct FemOperators {
 /// of s, T and F among them, displace it as if it stood alone (FacesTogether). Its stiffness is made larger until it is
 /// at least that of all functions of faces of a cell together, so that what is left for the nodes is positive definite
 /// (Rodrigo, Hu, Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized discretizations for poroelasticity and the
-/// Stokes' equations, with the whole vector in place of its normal component). In quadrilaterals it is twice as stiff:
-/// else the functions of faces could take all of the stiffness of a cell that bends, and with twice it they leave half
-/// of it. Nothing is displaced where displacements are linear and tractions agree, and what leaves one cell through a
-/// face enters the other.
+/// Stokes' equations, with the whole vector in place of its normal component). In cells that are no triangles or
+/// tetrahedra it is twice as stiff: else the functions of faces could take all of the stiffness of a cell that bends,
+/// and with twice it they leave half of it. Nothing is displaced where displacements are linear and tractions agree,
+/// and what leaves one cell through a face enters the other.
 ///
 /// Cells at tips are those of second order at either order, with their field of a tip (tips_of_faces). At first order
 /// the functions of all their faces are displaced together, as elimination would do it, so that the nodes remain the

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "components/poromechanics/fem/face_functions.hpp"
 #include "components/poromechanics/fem/volumetric_split.hpp"
 #include "components/poromechanics/notes.hpp"
 #include "components/poromechanics/stress_without_displacement.hpp"
@@ -31,6 +32,10 @@ std::vector<char> owned_values(const Mesh& mesh, Location location, int componen
 FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
     : LoadedRock(context, options, Location::node),
       order_(options.order == "first" ? ElementOrder::first : ElementOrder::second) {
+  if (dimension == 3 && mesh_.fracture_cell_count() > 0)
+    throw InputError(context.origin, "'" + context.name + "' has fractures, and is in space",
+                     "contact of their walls and what fluid does to them are for scenes in a plane so far",
+                     "leave out the fractures, or the rock");
   held_ = held_directions(options_, mesh_);
   if (order_ == ElementOrder::second)
     of_faces_ = &context.fields.add(mesh_, {.owner = context.name,
@@ -195,20 +200,6 @@ Vector FemRock::coefficients() const {
   return values;
 }
 
-Tensor FemRock::mean_gradient(const Vector& coefficients, int cell) const {
-  const RawDisplacement raw{mesh_};
-  Tensor gradient = Tensor::Zero();
-  for (const int face : mesh_.cell_faces[cell]) {
-    Point mean = mean_of_face * coefficients.segment<dimension>(raw.of_face(face));
-    const std::array<double, 2> means = means_of_ends(mesh_, operators_.tips, face);
-    for (int end = 0; end < 2; ++end)
-      mean += means[end] * coefficients.segment<dimension>(raw.of_node(mesh_.face_nodes[face][end]));
-    const double out = mesh_.face_cells[face][0] == cell ? 1 : -1;
-    gradient += out * mesh_.face_measure[face] / mesh_.cell_measure[cell] * mean * mesh_.face_normal[face].transpose();
-  }
-  return gradient;
-}
-
 Vector FemRock::mean_stress() const {
   const std::vector<Field*> fields = unknowns();
   const bool is_at_rest = std::ranges::all_of(fields, [](const Field* field) { return field->now().isZero(0); });
@@ -217,12 +208,11 @@ Vector FemRock::mean_stress() const {
   const Vector all = coefficients();
   Vector stress(symmetric_components * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    const Tensor gradient = mean_gradient(all, c);
-    Eigen::Vector3d of_cell =
-        stiffness_.of_cells()[c] * Eigen::Vector3d(gradient(0, 0), gradient(1, 1), gradient(0, 1) + gradient(1, 0));
+    SymmetricTensor of_cell =
+        stiffness_.of_cells()[c] * strain_of(mean_gradient(RawDisplacement{mesh_}, operators_.tips, all, c));
     for (const PoreLoad& load : loads_) {
       const double pore = load.alpha[c] * (load.pressure->now()[c] - load.reference[c]);
-      of_cell -= pore * Eigen::Vector3d(1, 1, 0);
+      of_cell -= pore * isotropic_components();
     }
     const double support = stiffness_.excavation().support(c);
     if (settled_)
@@ -245,13 +235,7 @@ Vector FemRock::outer_displacement() const {
   const Vector all = coefficients();
   Vector outer(raw.size() - raw.nodes_size());
   for (int f = 0; f < mesh_.face_count(); ++f) {
-    // The function of the second end in the centre; from a tip on it is the root of the part of the way.
-    const int tip = operators_.tips[f];
-    const auto& [from, to] = mesh_.face_nodes[f];
-    const double share = tip == none ? 0.5 : tip == from ? std::sqrt(0.5) : 1 - std::sqrt(0.5);
-    outer.segment<dimension>(dimension * f) = (1 - share) * all.segment<dimension>(raw.of_node(from)) +
-                                              share * all.segment<dimension>(raw.of_node(to)) +
-                                              4 * share * (1 - share) * all.segment<dimension>(raw.of_face(f));
+    outer.segment<dimension>(dimension * f) = displacement_of_middle(raw, operators_.tips, all, f);
   }
   return outer;
 }
@@ -260,7 +244,7 @@ void FemRock::note_step(Notes& notes, const StepTime&) const {
   const Vector all = coefficients();
   LargestStrain largest;
   for (int c = 0; c < mesh_.cell_count(); ++c)
-    if (const double strain = mean_gradient(all, c).norm();
+    if (const double strain = mean_gradient(RawDisplacement{mesh_}, operators_.tips, all, c).norm();
         strain > largest.strain && !stiffness_.excavation().is_removed(c))
       largest = {strain, mesh_.cell_center[c]};
   note_large_strain(notes, name(), largest, options_, stiffness_.of_cells());

@@ -12,14 +12,15 @@ namespace sprekk::poromechanics {
 
 /// The parameters of finite elements: those of any rock, and the order.
 struct FemOptions : Options {
-  std::string order = "second";
+  std::string order = dimension == 2 ? "second" : "first";
   Spec spec();
 };
 
 /// Unknown: the displacement of every node and, at second order, how much more the middle of every face is displaced
-/// than the mean of its ends (CellPoint); p is one value a cell. Each row balances the work of the stresses in the
-/// displacement of one function with that of the loads (N/m), or holds a prescribed displacement. At first order, where
-/// rock is nearly incompressible, part of the stress against a change of volume is an unknown of every cell.
+/// than the mean of its ends (CellPoint); p is one value a cell. In space there is first order alone so far. Each row
+/// balances the work of the stresses in the displacement of one function with that of the loads (N/m), or holds a
+/// prescribed displacement. At first order, where rock is nearly incompressible, part of the stress against a change of
+/// volume is an unknown of every cell.
 class FemRock : public LoadedRock, public NeedsDirectSolver {
  public:
   /// Throws InputError as LoadedRock does.
@@ -61,7 +62,6 @@ class FemRock : public LoadedRock, public NeedsDirectSolver {
   Quantity quantity_of(const SparseMatrix& of_all, const std::vector<char>& owned) const;
   Quantity quantity_of(LinearInFem operators, const std::vector<char>& owned) const;
   std::vector<Quantity*> quantities();
-  Tensor mean_gradient(const Vector& coefficients, int cell) const;
 
   ElementOrder order_;
   Field* of_faces_ = nullptr;    ///< at second order

@@ -17,4 +17,12 @@ inline std::array<GaussPoint, 3> gauss_points() {
   return {{{0.5 - offset, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + offset, 5.0 / 18}}};
 }
 
+/// Four points: exact for polynomials of the seventh degree.
+inline std::array<GaussPoint, 4> four_gauss_points() {
+  const double root = std::sqrt(6.0 / 5) * 2 / 7, inner = std::sqrt(3.0 / 7 - root) / 2,
+               outer = std::sqrt(3.0 / 7 + root) / 2;
+  const double of_inner = (18 + std::sqrt(30.0)) / 72, of_outer = (18 - std::sqrt(30.0)) / 72;
+  return {{{0.5 - outer, of_outer}, {0.5 - inner, of_inner}, {0.5 + inner, of_inner}, {0.5 + outer, of_outer}}};
+}
+
 }  // namespace sprekk::poromechanics

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "components/poromechanics/check_conditions.hpp"
-#include "components/poromechanics/fem/gauss_points.hpp"
+#include "components/poromechanics/fem/face_functions.hpp"
 #include "components/poromechanics/fem/shape_functions.hpp"
 
 namespace sprekk::poromechanics {
@@ -52,14 +52,11 @@ void add_tractions(const SideCondition& condition, int face, const RawDisplaceme
                    GivenLoads& loads) {
   const Mesh& mesh = raw.mesh;
   const int region = mesh.cell_region[mesh.face_cells[face][0]];
-  const auto& [from, to] = mesh.face_nodes[face];
-  for (const GaussPoint& gauss : gauss_points()) {
-    const Point x = (1 - gauss.at) * mesh.nodes[from] + gauss.at * mesh.nodes[to];
-    const Point traction = condition.traction_in(step, {x, region, 0}, mesh.face_normal[face]);
-    const Point force = gauss.weight * mesh.face_measure[face] * traction;
-    loads.forces.segment<dimension>(raw.of_node(from)) += (1 - gauss.at) * force;
-    loads.forces.segment<dimension>(raw.of_node(to)) += gauss.at * force;
-    loads.forces.segment<dimension>(raw.of_face(face)) += 4 * gauss.at * (1 - gauss.at) * force;
+  const std::vector<FaceFunction> functions = face_functions(raw, {}, face);
+  for (const FacePoint& point : face_points(mesh, face)) {
+    const Point force = point.weight * condition.traction_in(step, {point.x, region, 0}, point.normal);
+    for (std::size_t k = 0; k < functions.size(); ++k)
+      loads.forces.segment<dimension>(functions[k].coefficient) += point.value[k] * force;
   }
 }
 
@@ -105,11 +102,13 @@ GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& hel
   };
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (const SideCondition* condition = condition_of(options, mesh, f)) add_tractions(*condition, f, raw, step, loads);
-    const auto& [from, to] = mesh.face_nodes[f];
     for (int k = 0; k < dimension; ++k)
-      for (const HeldBy& by : held.faces[f].by[k])
-        loads.displacements[raw.of_face(f) + k] +=
-            displacement(by, mesh.face_center[f]) - (at_node(by, from) + at_node(by, to)) / 2;
+      for (const HeldBy& by : held.faces[f].by[k]) {
+        double of_nodes = 0;
+        for (const int node : mesh.face_nodes[f]) of_nodes += at_node(by, node);
+        const double mean = of_nodes / static_cast<double>(mesh.face_nodes[f].size());
+        loads.displacements[raw.of_face(f) + k] += displacement(by, middle_of_face(mesh, f)) - mean;
+      }
   }
   for (int node = 0; node < mesh.node_count(); ++node)
     for (int k = 0; k < dimension; ++k)

@@ -1,10 +1,13 @@
 #include "components/poromechanics/fem/held_directions.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "components/poromechanics/check_conditions.hpp"
-#include "framework/mesh/plane/planar.hpp"
+#include "framework/linear/rigid_rotations.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -20,7 +23,7 @@ struct Direction {
 constexpr double same_side = 0.5;  // sine of the angle between faces of one curved side; more is a corner
 constexpr double parallel = 1e-3;  // sine of the angle between directions that hold as one
 
-double sine(const Point& a, const Point& b) { return std::abs(cross(a, b)) / (a.norm() * b.norm()); }
+double sine(const Point& a, const Point& b) { return (rotated(a).transpose() * b).norm() / (a.norm() * b.norm()); }
 
 void add(std::vector<Direction>& directions, int side, int axis, const Point& vector, const HeldBy& by) {
   for (Direction& direction : directions) {
@@ -34,28 +37,70 @@ void add(std::vector<Direction>& directions, int side, int axis, const Point& ve
   directions.push_back({side, axis, vector, {by}});
 }
 
-/// Two directions at most determine a displacement.
-HeldDirections combined(const std::vector<Direction>& directions) {
+/// As many directions as determine a displacement, each of them with a part across those before.
+std::vector<Direction> independent(const std::vector<Direction>& directions) {
+  std::vector<Direction> chosen;
+  std::vector<Point> across;  // unit
+  for (const Direction& direction : directions) {
+    if (chosen.size() == dimension) break;
+    Point rest = direction.vector.normalized();
+    for (const Point& before : across) rest -= before.dot(rest) * before;
+    if (rest.norm() <= parallel) continue;
+    chosen.push_back(direction);
+    across.push_back(rest.normalized());
+  }
+  return chosen;
+}
+
+/// Orthonormal columns, with `axis` where it has its largest component and the others near to their coordinates.
+std::pair<Tensor, int> axes_with(const Point& axis) {
+  int place = 0;
+  for (int k = 1; k < dimension; ++k)
+    if (std::abs(axis[k]) > std::abs(axis[place])) place = k;
+  Tensor axes = Tensor::Zero();
+  axes.col(place) = axis;
+  if constexpr (dimension == 2) {
+    axes.col(1 - place) = Point(-axis[1], axis[0]);
+  } else {
+    for (int k = 0; k < dimension; ++k) {
+      if (k == place) continue;
+      const Point rest = Point::Unit(k) - axes * (axes.transpose() * Point::Unit(k));
+      axes.col(k) = rest.normalized();
+    }
+  }
+  return {axes, place};
+}
+
+HeldDirections combined(const std::vector<Direction>& all) {
   HeldDirections held;
-  if (directions.empty()) return held;
-  const Point first = directions[0].vector.normalized();
-  if (directions.size() == 1) {
-    const int slot = std::abs(first[0]) >= std::abs(first[1]) ? 0 : 1;
-    held.axes.col(slot) = first;
-    held.axes.col(1 - slot) = Point(-first[1], first[0]);
-    held.is_held[slot] = true;
+  const std::vector<Direction> directions = independent(all);
+  const int count = static_cast<int>(directions.size());
+  if (count == 0) return held;
+  if (count == 1) {
+    const auto [axes, place] = axes_with(directions[0].vector.normalized());
+    held.axes = axes;
+    held.is_held[place] = true;
     for (const HeldBy& by : directions[0].by)
-      held.by[slot].push_back({by.face, by.axis, by.share / directions[0].vector.norm()});
+      held.by[place].push_back({by.face, by.axis, by.share / directions[0].vector.norm()});
     return held;
   }
-  // The columns of the inverse give (x, y) from the displacements along both.
-  Tensor both;
-  both << directions[0].vector.transpose(), directions[1].vector.transpose();
-  const Tensor inverse = both.inverse();
+  // The displacements along the held axes, from those along the directions; two in space leave the one across them.
+  Eigen::Matrix<double, Eigen::Dynamic, dimension> vectors(count, dimension);
+  for (int i = 0; i < count; ++i) vectors.row(i) = directions[i].vector.transpose();
+  Eigen::Matrix<double, dimension, Eigen::Dynamic> along(dimension, count);
+  int free = none;
+  if (count == dimension) along = Tensor(vectors).inverse();
+  if constexpr (dimension == 3)
+    if (count == 2) {
+      std::tie(held.axes, free) = axes_with(directions[0].vector.cross(directions[1].vector).normalized());
+      const Eigen::Matrix2d products = vectors * vectors.transpose();
+      along = held.axes.transpose() * vectors.transpose() * products.inverse();
+    }
   for (int k = 0; k < dimension; ++k) {
+    if (k == free) continue;
     held.is_held[k] = true;
-    for (int i = 0; i < 2; ++i)
-      for (const HeldBy& by : directions[i].by) held.by[k].push_back({by.face, by.axis, inverse(k, i) * by.share});
+    for (int i = 0; i < count; ++i)
+      for (const HeldBy& by : directions[i].by) held.by[k].push_back({by.face, by.axis, along(k, i) * by.share});
   }
   return held;
 }

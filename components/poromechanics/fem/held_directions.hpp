@@ -1,6 +1,8 @@
 // Where and along which directions the displacement is prescribed.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "components/poromechanics/options.hpp"
@@ -21,12 +23,12 @@ struct HeldDirections {
   Tensor axes = Tensor::Identity();
   bool is_held[dimension] = {};
   std::vector<HeldBy> by[dimension];
-  bool is_free() const { return !is_held[0] && !is_held[1]; }
+  bool is_free() const { return std::ranges::none_of(is_held, std::identity{}); }
 };
 
 /// Of each node and of each face. A node on two faces of one side, which may be curved, is held along the mean of their
-/// directions, weighted by length: else it would stick (consistent normals, Engelman, Sani and Gresho 1982). At corners
-/// of different directions both hold.
+/// directions, weighted by length or area: else it would stick (consistent normals, Engelman, Sani and Gresho 1982). At
+/// corners of different directions both hold.
 struct Held {
   std::vector<HeldDirections> nodes, faces;
 };

@@ -5,9 +5,9 @@
 
 namespace sprekk::poromechanics {
 
-/// The coefficients of a displacement of second order, without those of interior functions: (x, y) of every node, and
-/// then (x, y) of every face (see CellPoint), m. Nodes exist once on each side of a fracture, and once in each sector
-/// of a junction; at a tip the sides have one node.
+/// The coefficients of a displacement, without those of interior functions: its components at every node, and then
+/// those of every face (see CellPoint), m. Nodes exist once on each side of a fracture, and once in each sector of a
+/// junction; at a tip the sides have one node.
 struct RawDisplacement {
   const Mesh& mesh;
   int entities() const { return mesh.node_count() + mesh.face_count(); }

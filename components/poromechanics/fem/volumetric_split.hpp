@@ -8,10 +8,10 @@
 
 namespace sprekk::poromechanics {
 
-/// C = kept + taken · m m^T, with m = (1, 1, 0): `kept` resists a change of area by at most `kept_of_shear` times the
-/// shear stiffness (isotropic: lambda + G in the plane, so up to nu = 1/4 nothing is taken). Where displacements are
-/// linear in triangles, the part that is taken has to be a stress of its own: otherwise cells could not keep their
-/// volume and bend at the same time (locking).
+/// C = kept + taken · m m^T, with m of isotropic_components: `kept` resists a change of area, or of volume, by at most
+/// `kept_of_shear` times the shear stiffness (isotropic: lambda + 2 G over the dimension, so up to nu = 1/4 nothing is
+/// taken). Where displacements are linear in triangles, the part that is taken has to be a stress of its own: otherwise
+/// cells could not keep their volume and bend at the same time (locking).
 struct VolumetricSplit {
   std::vector<Stiffness> kept;  ///< Pa, positive definite
   Vector taken;                 ///< Pa, of each cell, 0 or more
