@@ -114,12 +114,13 @@ class LinearSolver {
   /// Solves for one right-hand side, given on this process's rows; `x` becomes the whole solution on every process.
   /// The true residual is checked after every solve; direct solvers reduce it by iterative refinement where needed.
   virtual LinearReport solve(const Vector& b_rows, Vector& x) = 0;
-  /// Solves A X = B in place for the columns of B, in one process, without a check of residuals. False for a solver
-  /// that does not offer this.
+  /// Solves A X = B in place for the columns of B, given on this process's rows, without a check of residuals.
+  /// Collective. False for a solver that does not offer this.
   virtual bool solve_columns(Eigen::Ref<Eigen::MatrixXd> /*columns*/) { return false; }
-  /// Factorizes A as `factor` does, and computes R A^-1 C (r × c) in the same factorization, in one process: the Schur
-  /// complement, without its sign, of a border of columns C (n × c) and rows R (r × n). This costs less than the
-  /// columns of A^-1 C. Returns std::nullopt, and has done nothing, for a solver that does not offer this.
+  /// Factorizes A as `factor` does, and computes R A^-1 C (r × c) in the same factorization: the Schur complement,
+  /// without its sign, of a border of columns C (this process's rows × c) and rows R (r × n, whole on every process, as
+  /// the result). This costs less than the columns of A^-1 C. Returns std::nullopt, and has done nothing, for a solver
+  /// that does not offer this.
   virtual std::optional<LinearReport> factor_bordered(const LinearSystem& /*system*/, const SparseMatrix& /*columns*/,
                                                       const SparseMatrix& /*rows*/, Eigen::MatrixXd& /*schur*/) {
     return std::nullopt;
@@ -136,7 +137,7 @@ struct LinearOptions {
   std::string type = "auto";  ///< auto, umfpack, mumps, belos
   double tolerance = 1e-10;   ///< relative residual of iterative methods
   int max_iterations = 500;
-  bool condense = true;  ///< direct solvers in one process: factorize the bulk once, and then only its Schur complement
+  bool condense = true;  ///< direct solvers: factorize the bulk once, and then only its Schur complement
   /// Whether the bulk changes after a few systems, as where the mesh changes with the steps. Then a quick factorization
   /// counts for more than quick back-solves.
   bool bulk_changes_often = false;
@@ -151,9 +152,8 @@ struct LinearOptions {
 std::unique_ptr<LinearSolver> make_linear_solver(const LinearOptions& options);
 /// Whether make_linear_solver gives a direct solver for a system of this size.
 bool is_direct(const LinearOptions& options, int unknowns);
-/// The solver for Newton's method. In one process, direct solvers solve decoupled blocks apart (SeparatedSolver), and
-/// condense the bulk if the options say so (CondensedSolver). With Belos or several processes this is
-/// make_linear_solver.
+/// The solver for Newton's method. Direct solvers condense the bulk if the options say so (CondensedSolver); in one
+/// process they solve decoupled blocks apart (SeparatedSolver). With Belos this is make_linear_solver.
 std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options);
 
 /// The name of the BLAS in use, and whether it is the slow reference implementation.

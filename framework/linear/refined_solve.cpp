@@ -60,20 +60,20 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
   LinearReport report = LinearReport::success();
   if (b_norm == 0) return report;
 
-  Vector y = whole_vector(system.rows, b, unknowns);
-  apply_inverse(y);
-  SPREKK_ASSERT(y.size() == unknowns, y.size(), unknowns);
+  const auto whole_solution = [&](Vector rows) {
+    apply_inverse(rows);
+    return whole_vector(system.rows, rows, unknowns);
+  };
+  Vector y = whole_solution(b);
   Vector r = b - a * y;
   double error = componentwise_backward_error(a, y, b, r);
   for (int step = 0; step < refinements && error > accurate; ++step) {
-    Vector candidate = whole_vector(system.rows, r, unknowns);
-    apply_inverse(candidate);
-    candidate += y;
+    const Vector candidate = whole_solution(r) + y;
     Vector r_candidate = b - a * candidate;
     const double candidate_error = componentwise_backward_error(a, candidate, b, r_candidate);
     if (!(candidate_error < error)) break;
     const bool stalls = candidate_error > hardly_better * error;
-    y = std::move(candidate);
+    y = candidate;
     r = std::move(r_candidate);
     error = candidate_error;
     if (stalls) break;

@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// Solves R A C y = R b by `apply_inverse` (whole vectors, in place, on every process); x = C y. Collective.
+/// Solves R A C y = R b by `apply_inverse` (in place, on this process's rows); x = C y. Collective.
 /// Up to three steps of iterative refinement follow while the componentwise backward error of the true residual is
 /// above 1e-13 and falls: unlike a norm, this error sees blocks whose values are small beside those of others. `solved`
 /// is false when the normwise backward error ||r|| / (||A|| ||y|| + ||R b||) stays above 1e-10, or the relative

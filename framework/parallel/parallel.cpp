@@ -9,9 +9,12 @@
 #include <numeric>
 
 #include "framework/invariants.hpp"
+#include "framework/parallel/alone.hpp"
 
 namespace sprekk::parallel {
 namespace {
+
+int alone = 0;  ///< objects of Alone
 
 bool launched_by_mpirun() {
   static const bool launched = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr;
@@ -63,7 +66,11 @@ void start_mpi() {
   std::atexit(finalize_at_exit);
 }
 
+Alone::Alone() { ++alone; }
+Alone::~Alone() { --alone; }
+
 int rank() {
+  if (alone > 0) return 0;
   if (launched_by_mpirun()) start_mpi();
   if (!is_running()) return 0;
   int value = 0;
@@ -73,6 +80,7 @@ int rank() {
 }
 
 int size() {
+  if (alone > 0) return 1;
   if (launched_by_mpirun()) start_mpi();
   if (!is_running()) return 1;
   int value = 1;

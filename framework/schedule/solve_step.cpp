@@ -104,7 +104,7 @@ Spec solver_spec(LinearOptions& options) {
   spec.flag(
       "condense", options.condense,
       {.doc = "Factorizes the equations of the bulk once for a mesh and a time step, and solves in each iteration "
-              "for what is on fractures only. Direct solvers in one process."});
+              "for what is on fractures only. Direct solvers."});
   spec.check([&options](const Node& node) {
     if (options.type == "umfpack" && parallel::size() > 1)
       throw InputError(node.find("type")->origin,

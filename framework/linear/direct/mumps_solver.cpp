@@ -17,6 +17,7 @@
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/parallel/row_exchange.hpp"
 
 namespace sprekk {
 namespace {
@@ -48,7 +49,9 @@ struct MumpsSolver::Instance {
   std::vector<double> values;      ///< of the matrix and its border
   std::vector<int> border;         ///< the numbers of the unknowns that are not eliminated
   std::vector<double> schur;       ///< their Schur complement, by rows
-  bool is_ordered = false;         ///< for these entries
+  std::vector<int> pivots;         ///< the unknowns, from 0 on, of which this process gets the solution
+  std::unique_ptr<parallel::RowExchange> solution_to_rows;  ///< from those to the rows of this process
+  bool is_ordered = false;                                  ///< for these entries
 
   Instance() {
     parallel::start_mpi();
@@ -58,16 +61,17 @@ struct MumpsSolver::Instance {
     run(start_instance);
     for (int stream = 1; stream <= 3; ++stream) icntl(stream) = -1;  // errors, warnings, statistics: quiet
     icntl(4) = 0;
-    icntl(5) = 0;                              // an assembled matrix
-    icntl(6) = 0;                              // no permutation of columns
-    icntl(8) = 0;                              // no scaling: the matrix is scaled already
-    icntl(10) = 0;                             // no refinement: refined_solve uses the true residual
-    icntl(14) = 30;                            // per cent of spare room
-    icntl(18) = parallel::size() > 1 ? 3 : 0;  // entries on every process
-    icntl(20) = 0;                             // a dense right-hand side on the root
-    icntl(21) = 0;                             // the solution on the root
-    icntl(24) = 1;                             // detects pivots that are zero to rounding, and continues
-    icntl(26) = 0;                             // solves for the eliminated unknowns
+    icntl(5) = 0;    // an assembled matrix
+    icntl(6) = 0;    // no permutation of columns
+    icntl(8) = 0;    // no scaling: the matrix is scaled already
+    icntl(10) = 0;   // no refinement: refined_solve uses the true residual
+    icntl(14) = 30;  // per cent of spare room
+    const bool is_distributed = parallel::size() > 1;
+    icntl(18) = is_distributed ? 3 : 0;   // entries on every process
+    icntl(20) = is_distributed ? 10 : 0;  // a dense right-hand side, its rows on every process
+    icntl(21) = is_distributed ? 1 : 0;   // the solution on the processes that have the pivots
+    icntl(24) = 1;                        // detects pivots that are zero to rounding, and continues
+    icntl(26) = 0;                        // solves for the eliminated unknowns
   }
   ~Instance() {
     int is_finalized = 0;
@@ -93,14 +97,15 @@ struct MumpsSolver::Orderings {
   std::deque<std::unique_ptr<Instance>> kept;
 
   void keep(std::unique_ptr<Instance> instance) {
-    if (scopes == 0 || parallel::size() > 1 || !instance->is_ordered || instance->data.n > largest_system) return;
+    if (scopes == 0 || !instance->is_ordered || instance->data.n > largest_system) return;
     kept.push_back(std::move(instance));
     if (kept.size() > most) kept.pop_front();
   }
-  /// Replaces an instance by one that has been ordered for the same entries, if there is one.
+  /// Replaces an instance by one that has been ordered for the same entries on every process, if there is one.
   bool take_for(std::unique_ptr<Instance>& instance) {
     const auto same = std::ranges::find_if(kept, [&](const auto& other) {
-      return other->border == instance->border && other->rows == instance->rows && other->columns == instance->columns;
+      return !parallel::any(other->border != instance->border || other->rows != instance->rows ||
+                            other->columns != instance->columns);
     });
     if (same == kept.end()) return false;
     instance = std::move(*same);
@@ -142,14 +147,15 @@ LinearReport MumpsSolver::factor(const LinearSystem& system) {
 
 std::optional<LinearReport> MumpsSolver::factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
                                                          const SparseMatrix& rows, Eigen::MatrixXd& schur) {
-  if (parallel::size() > 1 || !system.local.isCompressed()) return std::nullopt;
+  if (parallel::any(!system.local.isCompressed())) return std::nullopt;
   expect_sound(system);
   SPREKK_EXPECT(columns.rows() == system.local.rows(), columns.rows(), system.local.rows());
   SPREKK_EXPECT(rows.cols() == system.local.cols(), rows.cols(), system.local.cols());
   const Change change = take(system);
   Border border = scaled(columns, rows);
-  const bool has_new_pattern = change == Change::pattern || !have_same_pattern(border.columns, border_.columns) ||
-                               !have_same_pattern(border.rows, border_.rows);
+  const bool has_new_pattern =
+      parallel::any(change == Change::pattern || !have_same_pattern(border.columns, border_.columns) ||
+                    !have_same_pattern(border.rows, border_.rows));
   border_ = std::move(border);
   const LinearReport report = factor_scaled(has_new_pattern);
   if (!report.solved) return report;
@@ -183,6 +189,7 @@ MumpsSolver::Border MumpsSolver::scaled(const SparseMatrix& columns, const Spars
   for (int row = 0; row < columns.rows(); ++row)
     for (SparseMatrix::InnerIterator entry(border.columns, row); entry; ++entry)
       largest_of_column[entry.col()] = std::max(largest_of_column[entry.col()], std::abs(entry.value()));
+  parallel::max(largest_of_column);
   for (int row = 0; row < rows.rows(); ++row)
     for (SparseMatrix::InnerIterator entry(border.rows, row); entry; ++entry)
       largest_of_row[row] = std::max(largest_of_row[row], std::abs(entry.value()));
@@ -222,10 +229,11 @@ void MumpsSolver::list_entries() {
   list(
       scaled_.matrix, [&](int row) { return system_.rows[row]; }, 0);
   list(
-      border_.columns, [](int row) { return row; }, n);
+      border_.columns, [&](int row) { return system_.rows[row]; }, n);
+  mumps_->border.clear();
+  if (!parallel::is_root()) return;
   list(
       border_.rows, [n](int row) { return n + row; }, 0);
-  mumps_->border.clear();
   for (int k = 0; k < border_.size(); ++k) {
     mumps_->border.push_back(n + k + 1);
     rows.push_back(n + k + 1);
@@ -238,8 +246,13 @@ double* MumpsSolver::list_values() {
   if (border_.size() == 0) return scaled_.matrix.valuePtr();
   std::vector<double>& values = mumps_->values;
   values.clear();
-  for (const SparseMatrix* a : {&scaled_.matrix, &border_.columns, &border_.rows})
-    values.insert(values.end(), a->valuePtr(), a->valuePtr() + a->nonZeros());
+  const auto add = [&](const SparseMatrix& a) {
+    values.insert(values.end(), a.valuePtr(), a.valuePtr() + a.nonZeros());
+  };
+  add(scaled_.matrix);
+  add(border_.columns);
+  if (!parallel::is_root()) return values.data();
+  add(border_.rows);
   values.resize(values.size() + border_.size(), 0.0);
   return values.data();
 }
@@ -248,8 +261,7 @@ LinearReport MumpsSolver::order() {
   const Stopwatch watch(counts_.seconds_ordering);
   list_entries();
   const int size = static_cast<int>(scaled_.matrix.cols()) + border_.size();
-  if (!mumps_->is_ordered && parallel::size() == 1 && orderings().take_for(mumps_) && mumps_->data.n == size)
-    return LinearReport::success();
+  if (!mumps_->is_ordered && orderings().take_for(mumps_) && mumps_->data.n == size) return LinearReport::success();
   mumps_->is_ordered = false;
   auto& data = mumps_->data;
   SPREKK_ASSERT(mumps_->rows.size() == mumps_->columns.size(), mumps_->rows.size(), mumps_->columns.size());
@@ -304,6 +316,8 @@ LinearReport MumpsSolver::factor_values() {
   if (status < 0) mumps_->icntl(14) = spare;
   if (status < 0)
     return LinearReport::failure("the factorization of MUMPS failed with status " + std::to_string(status));
+  if (parallel::size() > 1)
+    MPI_Bcast(mumps_->schur.data(), static_cast<int>(mumps_->schur.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
   return not_singular();
 }
 
@@ -315,8 +329,8 @@ LinearReport MumpsSolver::not_singular() {
                                  describe_unknown(system_.blocks, row - 1) + ")");
   }
   const std::string reason = find_singularity(
-      system_, scaled_.matrix, [this](Vector& v) { apply_inverse(v, false); },
-      [this](Vector& v) { apply_inverse(v, true); });
+      system_, scaled_.matrix, [this](Vector& v) { apply_inverse_to_whole(v, false); },
+      [this](Vector& v) { apply_inverse_to_whole(v, true); });
   return reason.empty() ? LinearReport::success() : LinearReport::failure(reason);
 }
 
@@ -330,38 +344,69 @@ LinearReport MumpsSolver::solve(const Vector& b_rows, Vector& x) {
 
 bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
   SPREKK_EXPECT(columns.rows() == scaled_.matrix.rows(), columns.rows(), scaled_.matrix.rows());
-  if (parallel::size() > 1) return false;
   const Stopwatch watch(counts_.seconds_solve);
   counts_.columns += static_cast<int>(columns.cols());
   constexpr int together = 32;  // several columns together are faster; all together would double the memory
-  Eigen::MatrixXd block(mumps_->data.n, std::min<Eigen::Index>(together, columns.cols()));
+  const Vector scale_of_solution = scaled_.column_scale(system_.rows);
   mumps_->icntl(9) = 1;
-  for (Eigen::Index first = 0; first < columns.cols(); first += block.cols()) {
-    const Eigen::Index count = std::min(block.cols(), columns.cols() - first);
-    block.setZero();
-    block.topLeftCorner(columns.rows(), count) = scaled_.row_scale.asDiagonal() * columns.middleCols(first, count);
-    back_substitute(block.leftCols(count));
-    columns.middleCols(first, count) = scaled_.column_scale.asDiagonal() * block.topLeftCorner(columns.rows(), count);
+  for (Eigen::Index first = 0; first < columns.cols(); first += together) {
+    auto some = columns.middleCols(first, std::min<Eigen::Index>(together, columns.cols() - first));
+    Eigen::MatrixXd block = scaled_.row_scale.asDiagonal() * some;
+    back_substitute(block);
+    some = scale_of_solution.asDiagonal() * block;
   }
   return true;
 }
 
-/// Solves in place for several columns, whose rows of the border are zero.
-void MumpsSolver::back_substitute(Eigen::Ref<Eigen::MatrixXd> columns) {
-  SPREKK_EXPECT(columns.rows() == mumps_->data.n, columns.rows(), mumps_->data.n);
-  mumps_->data.rhs = columns.data();
-  mumps_->data.nrhs = static_cast<int>(columns.cols());
-  mumps_->data.lrhs = mumps_->data.n;
+/// Solves in place for several columns, given on this process's rows. Rows of the border are zero.
+void MumpsSolver::back_substitute(Eigen::MatrixXd& columns) {
+  auto& data = mumps_->data;
+  data.nrhs = static_cast<int>(columns.cols());
+  if (parallel::size() > 1) {
+    back_substitute_distributed(columns);
+    return;
+  }
+  const Eigen::Index unknowns = columns.rows();
+  columns.conservativeResizeLike(Eigen::MatrixXd::Zero(data.n, columns.cols()));
+  data.rhs = columns.data();
+  data.lrhs = data.n;
   mumps_->run(solve_for_columns);
+  columns.conservativeResize(unknowns, columns.cols());
 }
 
+void MumpsSolver::back_substitute_distributed(Eigen::MatrixXd& columns) {
+  auto& data = mumps_->data;
+  std::vector<int> rows = system_.rows, solved(data.info[22]);
+  for (int& row : rows) ++row;
+  Eigen::MatrixXd solution(solved.size(), columns.cols());
+  data.nloc_rhs = data.lrhs_loc = static_cast<int>(rows.size());
+  data.irhs_loc = rows.data();
+  data.rhs_loc = columns.data();
+  data.lsol_loc = static_cast<int>(solved.size());
+  data.isol_loc = solved.data();
+  data.sol_loc = solution.data();
+  mumps_->run(solve_for_columns);
+  for (int& unknown : solved) --unknown;
+  if (parallel::any(!mumps_->solution_to_rows || solved != mumps_->pivots)) {
+    mumps_->solution_to_rows = std::make_unique<parallel::RowExchange>(solved, system_.rows);
+    mumps_->pivots = std::move(solved);
+  }
+  columns = mumps_->solution_to_rows->moved(solution);
+}
+
+/// A^-1 v, or A^-T v, on this process's rows.
 void MumpsSolver::apply_inverse(Vector& v, bool transposed) {
   mumps_->icntl(9) = transposed ? 2 : 1;
-  const Eigen::Index unknowns = v.size();
-  v.conservativeResizeLike(Vector::Zero(mumps_->data.n));
-  back_substitute(v);
-  v.conservativeResize(unknowns);
-  MPI_Bcast(v.data(), static_cast<int>(v.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  Eigen::MatrixXd column = v;
+  back_substitute(column);
+  v = column;
+}
+
+/// The same for a vector that every process has all of.
+void MumpsSolver::apply_inverse_to_whole(Vector& v, bool transposed) {
+  Vector mine = v(system_.rows);
+  apply_inverse(mine, transposed);
+  v = whole_vector(system_.rows, mine, static_cast<int>(v.size()));
 }
 
 }  // namespace sprekk

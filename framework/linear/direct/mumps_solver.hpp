@@ -45,8 +45,10 @@ class MumpsSolver final : public LinearSolver {
   double* list_values();
   LinearReport factor_values();
   LinearReport not_singular();
-  void back_substitute(Eigen::Ref<Eigen::MatrixXd> columns);
+  void back_substitute(Eigen::MatrixXd& columns);
+  void back_substitute_distributed(Eigen::MatrixXd& columns);
   void apply_inverse(Vector& v, bool transposed);
+  void apply_inverse_to_whole(Vector& v, bool transposed);
 
   std::unique_ptr<Instance> mumps_;
   LastSystem last_;

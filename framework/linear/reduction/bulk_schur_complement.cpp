@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "framework/invariants.hpp"
+#include "framework/linear/refined_solve.hpp"
+#include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
 
@@ -85,11 +87,11 @@ std::optional<LinearReport> BulkSchurComplement::compute_bordered(const BulkSpli
 }
 
 bool BulkSchurComplement::solve_columns(const BulkSplitting& split, LinearSolver& solver) {
-  const int rows = split.bulk_size(), count = static_cast<int>(split.interface_columns.size());
-  SPREKK_EXPECT(are_indices(split.near, rows), rows);
+  const auto rows = static_cast<int>(split.bulk_rows.size()), count = static_cast<int>(split.interface_columns.size());
+  SPREKK_EXPECT(are_indices(split.near, split.bulk_size()), split.bulk_size());
   const SparseMatrix from_interface = chosen_columns(split.bf.matrix, split.interface_columns);
-  near_.resize(split.near.size(), count);
-  is_whole_ = static_cast<double>(rows) * count <= largest_;
+  near_.setZero(split.near.size(), count);
+  is_whole_ = static_cast<double>(split.bulk_size()) * count <= largest_;
   columns_.resize(rows, 0);  // stays empty without interface columns
   const int width = is_whole_ ? count : piece_;
   for (int first = 0; first < count; first += width) {
@@ -99,8 +101,14 @@ bool BulkSchurComplement::solve_columns(const BulkSplitting& split, LinearSolver
       for (SparseMatrix::InnerIterator entry(from_interface, row); entry; ++entry)
         if (entry.col() >= first && entry.col() < end) columns_(row, entry.col() - first) = entry.value();
     if (!solver.solve_columns(columns_)) return false;
-    for (std::size_t k = 0; k < split.near.size(); ++k)
-      near_.row(k).segment(first, end - first) = columns_.row(split.near[k]);
+    for (int row = 0; row < rows; ++row)
+      if (const int k = split.near_place[split.bulk_rows[row]]; k >= 0)
+        near_.row(k).segment(first, end - first) = columns_.row(row);
+  }
+  if (parallel::size() > 1) {
+    Vector of_all = near_.reshaped<Eigen::RowMajor>();
+    parallel::sum(of_all);
+    near_.reshaped<Eigen::RowMajor>() = of_all;
   }
   if (!is_whole_) columns_.resize(0, 0);
   return true;
@@ -155,16 +163,18 @@ void BulkSchurComplement::subtract(const BulkSplitting& split, LinearSolver& sol
                                    Vector& bulk) const {
   SPREKK_EXPECT(local.size() == split.local_size(), local.size(), split.local_size());
   SPREKK_EXPECT(bulk.size() == split.bulk_size(), bulk.size(), split.bulk_size());
+  Vector mine = bulk(split.bulk_rows);
   if (is_whole_) {
     Vector of_interface(split.interface_columns.size());
     for (std::size_t c = 0; c < split.interface_columns.size(); ++c)
       of_interface[c] = local[split.interface_columns[c]];
-    bulk.noalias() -= columns_ * of_interface;
-    return;
+    mine.noalias() -= columns_ * of_interface;
+  } else {
+    Eigen::MatrixXd answer = split.bf.matrix * local;
+    solver.solve_columns(answer);
+    mine -= answer;
   }
-  Eigen::MatrixXd answer = split.bf.matrix * local;
-  solver.solve_columns(answer);
-  bulk -= answer;
+  bulk = whole_vector(split.bulk_rows, mine, split.bulk_size());
 }
 
 }  // namespace sprekk

@@ -6,14 +6,15 @@
 #include <numeric>
 
 #include "framework/invariants.hpp"
+#include "framework/linear/refined_solve.hpp"
+#include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
 namespace {
 
-LinearSystem system_of(SparseMatrix matrix, std::vector<UnknownBlock> blocks) {
+LinearSystem system_of(std::vector<int> rows, SparseMatrix matrix, std::vector<UnknownBlock> blocks) {
   LinearSystem system;
-  system.rows.resize(matrix.rows());
-  std::iota(system.rows.begin(), system.rows.end(), 0);
+  system.rows = std::move(rows);
   system.local = std::move(matrix);
   system.blocks = std::move(blocks);
   return system;
@@ -65,13 +66,18 @@ UnknownBlock chosen_entities(const UnknownBlock& block, const std::vector<char>&
   return chosen;
 }
 
-double largest_by_block(const std::vector<UnknownBlock>& blocks, const Vector& residual, const Vector& size) {
+/// `rows`: the unknowns of the residuals, ascending. Collective.
+double largest_by_block(const std::vector<UnknownBlock>& blocks, const std::vector<int>& rows, const Vector& residual,
+                        const Vector& size) {
   double largest = 0;
   for (const UnknownBlock& block : blocks) {
-    const int count = block.entities * block.components;
-    if (count == 0) continue;
-    const double error = residual.segment(block.first, count).lpNorm<Eigen::Infinity>();
-    if (error > 0) largest = std::max(largest, error / size.segment(block.first, count).maxCoeff());
+    const auto begin = std::ranges::lower_bound(rows, block.first);
+    const auto count = std::ranges::lower_bound(rows, block.first + block.entities * block.components) - begin;
+    const auto largest_of = [&](const Vector& v) {
+      return parallel::max(count == 0 ? 0.0 : v.segment(begin - rows.begin(), count).lpNorm<Eigen::Infinity>());
+    };
+    const double error = largest_of(residual), scale = largest_of(size);
+    if (error > 0) largest = std::max(largest, error / scale);
   }
   return largest;
 }
@@ -96,7 +102,6 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
       held_(std::move(held)),
       is_local_(system.local.cols(), 1),
       place_(system.local.cols(), 0) {
-  SPREKK_EXPECT(system.local.rows() == system.local.cols(), system.local.rows(), system.local.cols());
   SPREKK_EXPECT(system.local.isCompressed());
   SPREKK_EXPECT(held_.empty() || held_.size() == is_local_.size(), held_.size(), is_local_.size());
   for (UnknownBlock block : system.blocks) {
@@ -116,16 +121,16 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
       UnknownBlock chosen = chosen_entities(block, is_local_, is_local, place_);
       if (chosen.entities > 0) (is_local ? local_blocks_ : bulk_blocks_).push_back(std::move(chosen));
     }
-  bb = extract(system.local, false, false);
-  bf = extract(system.local, false, true);
-  fb = extract(system.local, true, false);
-  ff = extract(system.local, true, true);
-  SPREKK_ASSERT(bb.matrix.nonZeros() + bf.matrix.nonZeros() + fb.matrix.nonZeros() + ff.matrix.nonZeros() ==
-                system.local.nonZeros());
+  rows_ = system.rows;
+  for (const int row : rows_) (is_local_[row] ? local_rows : bulk_rows).push_back(place_[row]);
+  split_own_rows(bulk, local);
+  split_rows_of_all(bulk, local);
   SPREKK_ASSERT(is_well_formed(bb.matrix) && is_well_formed(ff.matrix), bulk, local);
 
   std::vector<char> is_interface(local, 0);
-  for (int k = 0; k < bf.matrix.nonZeros(); ++k) is_interface[bf.matrix.innerIndexPtr()[k]] = 1;
+  const int* const of_interface = bf.matrix.innerIndexPtr();
+  for (const int i : parallel::gather(std::vector<int>(of_interface, of_interface + bf.matrix.nonZeros())))
+    is_interface[i] = 1;
   for (int i = 0; i < local; ++i)
     if (is_interface[i]) interface_columns.push_back(i);
   for (int i = 0; i < local; ++i)
@@ -139,21 +144,51 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
   }
 }
 
-SubMatrix BulkSplitting::extract(const SparseMatrix& matrix, bool local_rows, bool local_columns) const {
+/// A_BB and A_BF, and the places of the entries of local rows.
+void BulkSplitting::split_own_rows(int bulk, int local) {
+  Rows mine;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    if (!is_local_[rows_[row]]) mine.add(outer_[row], outer_[row + 1]);
+    for (int k = outer_[row]; is_local_[rows_[row]] && k < outer_[row + 1]; ++k) of_local_rows_.push_back(k);
+  }
+  bb = extract(mine, inner_, false, bulk);
+  bf = extract(mine, inner_, true, local);
+}
+
+/// A_FB and A_FF, with the rows of all processes.
+void BulkSplitting::split_rows_of_all(int bulk, int local) {
+  std::vector<int> lengths, columns;
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    if (is_local_[rows_[row]]) lengths.push_back(outer_[row + 1] - outer_[row]);
+  for (const int k : of_local_rows_) columns.push_back(inner_[k]);
+  const std::vector<int> row_of_all = parallel::gather(local_rows), lengths_of_all = parallel::gather(lengths);
+  SPREKK_ASSERT(static_cast<int>(row_of_all.size()) == local, row_of_all.size(), local);
+  Rows all;
+  all.spans.resize(local);
+  int end = 0;
+  for (std::size_t i = 0; i < row_of_all.size(); ++i) {
+    const int begin = std::exchange(end, end + lengths_of_all[i]);
+    all.spans[row_of_all[i]] = {begin, end};
+  }
+  columns = parallel::gather(columns);
+  fb = extract(all, columns, false, bulk);
+  ff = extract(all, columns, true, local);
+}
+
+SubMatrix BulkSplitting::extract(const Rows& rows, const std::vector<int>& column_of, bool local_columns,
+                                 int width) const {
   SubMatrix sub;
   std::vector<int> starts{0}, columns;
-  for (int row = 0; row < matrix.rows(); ++row) {
-    if (static_cast<bool>(is_local_[row]) != local_rows) continue;
-    for (int k = matrix.outerIndexPtr()[row]; k < matrix.outerIndexPtr()[row + 1]; ++k) {
-      const int column = matrix.innerIndexPtr()[k];
+  for (const auto& [begin, end] : rows.spans) {
+    for (int k = begin; k < end; ++k) {
+      const int column = column_of[k];
       if (static_cast<bool>(is_local_[column]) != local_columns) continue;
       columns.push_back(place_[column]);
       sub.source.push_back(k);
     }
     starts.push_back(static_cast<int>(columns.size()));
   }
-  const auto width = std::count(is_local_.begin(), is_local_.end(), static_cast<char>(local_columns));
-  sub.matrix.resize(static_cast<int>(starts.size()) - 1, static_cast<int>(width));
+  sub.matrix.resize(static_cast<int>(starts.size()) - 1, width);
   sub.matrix.resizeNonZeros(columns.size());
   std::copy(starts.begin(), starts.end(), sub.matrix.outerIndexPtr());
   std::copy(columns.begin(), columns.end(), sub.matrix.innerIndexPtr());
@@ -162,26 +197,41 @@ SubMatrix BulkSplitting::extract(const SparseMatrix& matrix, bool local_rows, bo
 }
 
 bool BulkSplitting::fits(const SparseMatrix& matrix) const {
-  return static_cast<int>(inner_.size()) == matrix.nonZeros() && static_cast<int>(outer_.size()) == matrix.rows() + 1 &&
-         std::equal(outer_.begin(), outer_.end(), matrix.outerIndexPtr()) &&
-         std::equal(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
+  const bool fits_here = static_cast<int>(inner_.size()) == matrix.nonZeros() &&
+                         static_cast<int>(outer_.size()) == matrix.rows() + 1 &&
+                         std::equal(outer_.begin(), outer_.end(), matrix.outerIndexPtr()) &&
+                         std::equal(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
+  return !parallel::any(!fits_here);
 }
 
 bool BulkSplitting::update(const SparseMatrix& matrix) {
-  SPREKK_EXPECT(fits(matrix));
+  SPREKK_EXPECT(matrix.nonZeros() == static_cast<Eigen::Index>(inner_.size()), matrix.nonZeros(), inner_.size());
   const double* values = matrix.valuePtr();
   const bool has_changed = bb.update(values) | bf.update(values);
-  fb.update(values);
-  ff.update(values);
-  return has_changed;
+  values_of_local_rows_.clear();
+  for (const int k : of_local_rows_) values_of_local_rows_.push_back(values[k]);
+  const std::vector<double> all = parallel::gather(values_of_local_rows_);
+  fb.update(all.data());
+  ff.update(all.data());
+  return parallel::any(has_changed);
 }
 
-Vector BulkSplitting::part(const Vector& whole, bool local, int size) const {
-  SPREKK_EXPECT(whole.size() == static_cast<Eigen::Index>(is_local_.size()), whole.size(), is_local_.size());
-  Vector mine(size);
-  for (std::size_t i = 0; i < is_local_.size(); ++i)
-    if (static_cast<bool>(is_local_[i]) == local) mine[place_[i]] = whole[i];
+Vector BulkSplitting::bulk_part(const Vector& rows) const {
+  SPREKK_EXPECT(rows.size() == static_cast<Eigen::Index>(rows_.size()), rows.size(), rows_.size());
+  Vector mine(bulk_rows.size());
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (!is_local_[rows_[i]]) mine[next++] = rows[i];
   return mine;
+}
+
+Vector BulkSplitting::local_part(const Vector& rows) const {
+  SPREKK_EXPECT(rows.size() == static_cast<Eigen::Index>(rows_.size()), rows.size(), rows_.size());
+  Vector mine(local_rows.size());
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (is_local_[rows_[i]]) mine[next++] = rows[i];
+  return whole_vector(local_rows, mine, local_size());
 }
 
 Vector BulkSplitting::joined(const Vector& bulk, const Vector& local) const {
@@ -193,7 +243,7 @@ Vector BulkSplitting::joined(const Vector& bulk, const Vector& local) const {
 
 LinearSystem BulkSplitting::bulk_system() const {
   SPREKK_ASSERT(are_indices(sums_, static_cast<long>(place_.size())), place_.size());
-  LinearSystem system = system_of(bb.matrix, bulk_blocks_);
+  LinearSystem system = system_of(bulk_rows, bb.matrix, bulk_blocks_);
   for (const int sum : sums_)
     if (!is_local_[sum]) system.sums.push_back(place_[sum]);
   return system;
@@ -201,21 +251,24 @@ LinearSystem BulkSplitting::bulk_system() const {
 
 LinearSystem BulkSplitting::local_system(SparseMatrix matrix) const {
   SPREKK_EXPECT(matrix.rows() == local_size() && matrix.cols() == local_size(), matrix.rows(), matrix.cols());
-  LinearSystem system = system_of(std::move(matrix), local_blocks_);
+  std::vector<int> rows(local_size());
+  std::iota(rows.begin(), rows.end(), 0);
+  LinearSystem system = system_of(std::move(rows), std::move(matrix), local_blocks_);
   for (const int sum : sums_)
     if (is_local_[sum]) system.sums.push_back(place_[sum]);
   return system;
 }
 
 LinearSystem BulkSplitting::whole_system() const {
-  const int size = static_cast<int>(is_local_.size());
-  SparseMatrix matrix(size, size);
+  SparseMatrix matrix(rows_.size(), is_local_.size());
   matrix.resizeNonZeros(inner_.size());
   std::copy(outer_.begin(), outer_.end(), matrix.outerIndexPtr());
   std::copy(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
-  for (const SubMatrix* sub : {&bb, &bf, &fb, &ff})
+  for (const SubMatrix* sub : {&bb, &bf})
     for (std::size_t k = 0; k < sub->source.size(); ++k) matrix.valuePtr()[sub->source[k]] = sub->matrix.valuePtr()[k];
-  LinearSystem system = system_of(std::move(matrix), blocks_);
+  for (std::size_t k = 0; k < of_local_rows_.size(); ++k)
+    matrix.valuePtr()[of_local_rows_[k]] = values_of_local_rows_[k];
+  LinearSystem system = system_of(rows_, std::move(matrix), blocks_);
   system.sums = sums_;
   return system;
 }
@@ -223,17 +276,20 @@ LinearSystem BulkSplitting::whole_system() const {
 double BulkSplitting::backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk,
                                      const Vector& b_local) const {
   if (!std::isfinite(bulk.sum() + local.sum())) return HUGE_VAL;
-  SPREKK_EXPECT(b_bulk.size() == bulk_size() && b_local.size() == local_size(), b_bulk.size(), b_local.size());
-  Vector product = Vector::Zero(bulk_size()), size = b_bulk.cwiseAbs();
+  const auto own_bulk = static_cast<Eigen::Index>(bulk_rows.size());
+  SPREKK_EXPECT(b_bulk.size() == own_bulk && b_local.size() == local_size(), b_bulk.size(), b_local.size());
+  Vector product = Vector::Zero(own_bulk), size = b_bulk.cwiseAbs();
   multiply(bb.matrix, bulk, product, size);
   multiply(bf.matrix, local, product, size);
-  const double of_bulk = largest_by_block(bulk_blocks_, b_bulk - product, size);
+  const double of_bulk = largest_by_block(bulk_blocks_, bulk_rows, b_bulk - product, size);
   product = Vector::Zero(local_size());
   size = b_local.cwiseAbs();
   multiply(fb.matrix, bulk, product, size);
   multiply(ff.matrix, local, product, size);
   size = size.cwiseMax(least_sizes(ff.matrix, size));
-  return std::max(of_bulk, largest_by_block(local_blocks_, b_local - product, size));
+  std::vector<int> all(local_size());
+  std::iota(all.begin(), all.end(), 0);
+  return std::max(of_bulk, largest_by_block(local_blocks_, all, b_local - product, size));
 }
 
 }  // namespace sprekk

@@ -1,6 +1,7 @@
 // Which entries of a system belong to the bulk and which to the local unknowns on fractures.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "framework/linear/linear_solver.hpp"
@@ -20,25 +21,28 @@ struct SubMatrix {
   bool has_row(int row) const { return matrix.outerIndexPtr()[row + 1] > matrix.outerIndexPtr()[row]; }
 };
 
-/// Splits the unknowns of a system in one process into B (bulk) and F (BlockKind::interface), each in their order, and
-/// the matrix into four blocks. A splitting can be used as long as the sparsity pattern stays. `held`: for every
-/// unknown, whether it belongs to F although it is one of the bulk (unknowns_held_by_fractures): all unknowns of an
-/// entity, or none of them; an empty vector stands for none at all.
+/// Splits the unknowns of a system into B (bulk) and F (BlockKind::interface), each in their order, and the matrix into
+/// four blocks. Of A_BB and A_BF a process has the rows of its own; of A_FB and A_FF every process has all rows, since
+/// they are few. All calls are collective. A splitting can be used as long as the sparsity pattern stays. `held`: for
+/// every unknown, whether it belongs to F although it is one of the bulk (unknowns_held_by_fractures): all unknowns of
+/// an entity, or none of them; an empty vector stands for none at all.
 class BulkSplitting {
  public:
   explicit BulkSplitting(const LinearSystem& system, std::vector<char> held = {});
   bool fits(const SparseMatrix& matrix) const;
 
   const std::vector<char>& held() const { return held_; }
-  int bulk_size() const { return bb.matrix.rows(); }
+  int bulk_size() const { return bb.matrix.cols(); }
   int local_size() const { return ff.matrix.rows(); }
   /// Whether an unknown of F belongs to the bulk, but is held by F; whether there are some.
   bool is_held(int unknown) const { return is_held_local_[unknown]; }
   bool has_held() const { return !is_held_local_.empty(); }
-  Vector bulk_part(const Vector& whole) const { return part(whole, false, bulk_size()); }
-  Vector local_part(const Vector& whole) const { return part(whole, true, local_size()); }
+  /// Of a vector of this process's rows: those of B, and all of F.
+  Vector bulk_part(const Vector& rows) const;
+  Vector local_part(const Vector& rows) const;
+  /// A vector of all unknowns, from all of B and F.
   Vector joined(const Vector& bulk, const Vector& local) const;
-  /// The matrices as systems of their own.
+  /// The matrices as systems of their own; that of F is whole.
   LinearSystem bulk_system() const;
   LinearSystem local_system(SparseMatrix matrix) const;
   LinearSystem whole_system() const;
@@ -48,20 +52,30 @@ class BulkSplitting {
   void take_sums(const std::vector<int>& sums) { sums_ = sums; }
   /// The largest over the blocks of max |b − A x| / max (|A| |x| + |b|), with maxima over the rows of a block. Where
   /// the terms of a block are nothing but round-off of local unknowns, 1e-4 of the terms of these unknowns' own rows
-  /// stand in the denominator.
+  /// stand in the denominator. `b_bulk`: of this process's rows; the other vectors are whole.
   double backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk, const Vector& b_local) const;
 
   SubMatrix bb, bf, fb, ff;
-  std::vector<int> interface_columns;  ///< the local unknowns that have a column in A_BF
-  std::vector<int> interface_rows;     ///< the local rows that have an entry in A_FB
-  std::vector<int> near;               ///< the unknowns of the bulk that have a column in A_FB
-  std::vector<int> near_place;         ///< of every unknown of the bulk: its place in `near`, or -1
+  std::vector<int> bulk_rows, local_rows;  ///< the unknowns of B, and of F, whose rows are this process's
+  std::vector<int> interface_columns;      ///< the local unknowns that have a column in A_BF
+  std::vector<int> interface_rows;         ///< the local rows that have an entry in A_FB
+  std::vector<int> near;                   ///< the unknowns of the bulk that have a column in A_FB
+  std::vector<int> near_place;             ///< of every unknown of the bulk: its place in `near`, or -1
 
  private:
-  Vector part(const Vector& whole, bool local, int size) const;
-  SubMatrix extract(const SparseMatrix& matrix, bool local_rows, bool local_columns) const;
+  /// Rows of a matrix: where each begins and ends among its entries.
+  struct Rows {
+    std::vector<std::pair<int, int>> spans;
+    void add(int begin, int end) { spans.emplace_back(begin, end); }
+  };
+  void split_own_rows(int bulk, int local);
+  void split_rows_of_all(int bulk, int local);
+  SubMatrix extract(const Rows& rows, const std::vector<int>& column_of, bool local_columns, int width) const;
 
+  std::vector<int> rows_;  ///< of this process
   std::vector<int> outer_, inner_;
+  std::vector<int> of_local_rows_;  ///< places of the entries of this process's rows of F
+  std::vector<double> values_of_local_rows_;
   std::vector<char> held_;
   std::vector<char> is_local_;       ///< of every unknown
   std::vector<char> is_held_local_;  ///< of every unknown of F; empty for none

@@ -10,6 +10,7 @@
 #include "framework/linear/reduction/bulk_splitting.hpp"
 #include "framework/linear/reduction/floating_parts.hpp"
 #include "framework/linear/stopwatch.hpp"
+#include "framework/parallel/alone.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -22,6 +23,9 @@ bool same_values(const SparseMatrix& a, const std::vector<double>& kept) {
   return a.nonZeros() == static_cast<Eigen::Index>(kept.size()) &&
          (kept.empty() || std::memcmp(a.valuePtr(), kept.data(), kept.size() * sizeof(double)) == 0);
 }
+
+/// Whether it holds on every process. All decide alike, so that all make the same collective calls.
+bool all_say(bool here) { return !parallel::any(!here); }
 
 std::vector<double> values_of(const SparseMatrix& a) { return {a.valuePtr(), a.valuePtr() + a.nonZeros()}; }
 
@@ -138,7 +142,7 @@ CondensedSolver::~CondensedSolver() = default;
 LinearReport CondensedSolver::factor(const LinearSystem& system) {
   expect_sound(system);
   is_condensed_ = false;
-  if (parallel::size() == 1 && has_both_kinds(system) && system.local.isCompressed()) {
+  if (has_both_kinds(system) && all_say(system.local.isCompressed())) {
     const LinearReport report = condense(system);
     is_condensed_ = report.solved;
     if (is_condensed_) return report;
@@ -153,7 +157,7 @@ LinearReport CondensedSolver::factor_whole(const LinearSystem& system) {
 }
 
 LinearReport CondensedSolver::condense(const LinearSystem& system) {
-  const auto is_same = [](std::uint64_t number, std::uint64_t last) { return number != 0 && number == last; };
+  const auto is_same = [](std::uint64_t number, std::uint64_t last) { return all_say(number != 0 && number == last); };
   const bool fits = splitting_ && (is_same(system.pattern_number, pattern_number_) || splitting_->fits(system.local));
   if (!fits) split_anew(system, unknowns_held_by_fractures(system));
   bool has_changed = false;
@@ -199,6 +203,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   SparseMatrix reduced = reduced_matrix(split, reduced_pattern_, *schur_rows);
   if (split.has_held() && is_lost(split, reduced, *schur_rows))
     return reduced_report_ = LinearReport::failure("a part of the bulk is not held by its fractures");
+  const parallel::Alone on_every_process;
   return reduced_report_ = reduced_.factor(split.local_system(std::move(reduced)));
 }
 
@@ -213,7 +218,7 @@ void CondensedSolver::split_anew(const LinearSystem& system, std::vector<char> h
 void CondensedSolver::choose_bulk() {
   SPREKK_ASSERT(bulks_.size() <= kept_bulks, bulks_.size());
   const auto known = std::find_if(bulks_.begin(), bulks_.end(), [this](const Bulk& bulk) {
-    return same_values(splitting_->bb.matrix, bulk.values) && same_values(splitting_->bf.matrix, bulk.columns);
+    return all_say(same_values(splitting_->bb.matrix, bulk.values) && same_values(splitting_->bf.matrix, bulk.columns));
   });
   if (known != bulks_.end()) {
     bulks_.splice(bulks_.begin(), bulks_, known);
@@ -233,17 +238,34 @@ void CondensedSolver::choose_bulk() {
 LinearReport CondensedSolver::solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk,
                                               Vector& local) {
   const BulkSplitting& split = *splitting_;
-  SPREKK_EXPECT(b_bulk.size() == split.bulk_size(), b_bulk.size(), split.bulk_size());
+  SPREKK_EXPECT(b_bulk.size() == static_cast<Eigen::Index>(split.bulk_rows.size()), b_bulk.size());
   SPREKK_EXPECT(b_local.size() == split.local_size(), b_local.size(), split.local_size());
   SPREKK_ASSERT(!bulks_.empty());
   bulk = Vector::Zero(split.bulk_size());
-  if (!b_bulk.isZero(0)) {
+  if (parallel::any(!b_bulk.isZero(0))) {
     const LinearReport report = bulks_.front().solver->solve(b_bulk, bulk);
     if (!report.solved) return report;
   }
-  const LinearReport report = reduced_.solve(b_local - split.fb.matrix * bulk, local);
+  const LinearReport report = solve_reduced(b_local - split.fb.matrix * bulk, local);
   if (!report.solved) return report;
   bulks_.front().schur.subtract(split, *bulks_.front().solver, local, bulk);
+  return report;
+}
+
+/// Every process solves for all unknowns on fractures, and takes the answer of the first: another machine may round
+/// otherwise.
+LinearReport CondensedSolver::solve_reduced(const Vector& b, Vector& x) {
+  LinearReport report;
+  {
+    const parallel::Alone on_every_process;
+    report = reduced_.solve(b, x);
+  }
+  if (parallel::size() == 1) return report;
+  if (!all_say(report.solved))
+    return report.solved ? LinearReport::failure("another process could not solve for the unknowns on fractures")
+                         : report;
+  if (!parallel::is_root()) x.setZero();
+  parallel::sum(x);
   return report;
 }
 

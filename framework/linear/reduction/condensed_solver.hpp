@@ -12,7 +12,7 @@ namespace sprekk {
 
 class BulkSplitting;
 
-/// With B the unknowns of the bulk and F those on interfaces (BlockKind), in one process:
+/// With B the unknowns of the bulk and F those on interfaces (BlockKind):
 ///
 ///   [A_BB A_BF] [x_B]   [b_B]      X = A_BB^-1 A_BF,  S = A_FF − A_FB X
 ///   [A_FB A_FF] [x_F] = [b_F]      S x_F = b_F − A_FB A_BB^-1 b_B,  x_B = A_BB^-1 b_B − X x_F
@@ -25,7 +25,8 @@ class BulkSplitting;
 ///
 /// The whole system is solved instead where there is nothing to condense, where S costs more than the whole, as long as
 /// X would cost more than it could have saved so far, and where the first solution with a bulk turns out to be
-/// inaccurate. Where only fractures hold a block of rock, a cell or two of the block join F, so that A_BB is not
+/// inaccurate. On several processes each has its rows of B and of X; S is small, and every process has all of it. Where
+/// only fractures hold a block of rock, a cell or two of the block join F, so that A_BB is not
 /// singular (unknowns_held_by_fractures).
 class CondensedSolver final : public LinearSolver {
  public:
@@ -43,6 +44,7 @@ class CondensedSolver final : public LinearSolver {
   void split_anew(const LinearSystem& system, std::vector<char> held);
   void choose_bulk();
   LinearReport solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk, Vector& local);
+  LinearReport solve_reduced(const Vector& b, Vector& x);
   bool verifies(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local);
   LinearReport factor_whole(const LinearSystem& system);
 

@@ -9,6 +9,7 @@
 #include "framework/joined_sets.hpp"
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/rigid_rotations.hpp"
+#include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
 namespace {
@@ -32,13 +33,18 @@ struct Part {
 class Parts {
  public:
   Parts(const LinearSystem& system, const UnknownBlock& block, const std::vector<char>& is_balance)
-      : block_(block), a_(system.local), entity_of_(system.local.cols(), -1), part_of_(block.entities, -1) {
+      : block_(block),
+        a_(system.local),
+        rows_(system.rows),
+        entity_of_(system.local.cols(), -1),
+        part_of_(block.entities, -1) {
     for (int entity = 0; entity < block.entities; ++entity)
       std::fill_n(entity_of_.begin() + block.first + entity * block.components, block.components, entity);
     find(is_balance);
     for (Part& part : parts_) prepare(part);
     for (int row = 0; row < a_.rows(); ++row)
-      if (is_balance[row]) take(row);
+      if (is_balance[rows_[row]]) take(row);
+    if (parallel::size() > 1) take_those_of_all();
   }
 
   /// Entities that have to be fixed to remove all modes that no balance resists; `preferred` ones first.
@@ -80,8 +86,8 @@ class Parts {
   void find(const std::vector<char>& is_balance) {
     JoinedSets sets(block_.entities);
     for (int row = 0; row < a_.rows(); ++row) {
-      if (!is_balance[row]) continue;
-      int joined = entity_of_[row];
+      if (!is_balance[rows_[row]]) continue;
+      int joined = entity_of_[rows_[row]];
       for (SparseMatrix::InnerIterator entry(a_, row); entry; ++entry) {
         const int entity = entry.value() == 0 ? -1 : entity_of_[entry.col()];
         if (entity < 0) continue;
@@ -89,6 +95,7 @@ class Parts {
         joined = entity;
       }
     }
+    join_those_of_all(sets);
     for (int entity = 0; entity < block_.entities; ++entity) {
       int& number = part_of_[sets.root(entity)];
       if (number < 0) {
@@ -98,6 +105,16 @@ class Parts {
       part_of_[entity] = number;
       parts_[number].entities.push_back(entity);
     }
+  }
+
+  /// Joins what rows of other processes join.
+  void join_those_of_all(JoinedSets& sets) const {
+    if (parallel::size() == 1) return;
+    std::vector<int> pairs;
+    for (int entity = 0; entity < block_.entities; ++entity)
+      if (sets.root(entity) != entity) pairs.insert(pairs.end(), {entity, sets.root(entity)});
+    pairs = parallel::gather(pairs);
+    for (std::size_t k = 0; k < pairs.size(); k += 2) sets.join(pairs[k], pairs[k + 1]);
   }
 
   void prepare(Part& part) {
@@ -146,28 +163,49 @@ class Parts {
       size += std::abs(entry.value());
     }
     if (part == nullptr || size == 0) return;
-    w /= size;
-    // Givens rotations keep small motions apart from large ones, where a matrix of products would lose them.
-    Modes& r = part->triangle;
-    for (int k = 0; k < part->modes; ++k) {
+    add(w / size, part->triangle);
+    constexpr int between_looks = 32;
+    if (++part->balances % between_looks == 0)
+      part->is_held = Eigen::JacobiSVD<Modes>(part->triangle).singularValues().minCoeff() > resists;
+  }
+
+  /// R^T R grows by w^T w. Givens rotations keep small motions apart from large ones, where a matrix of products would
+  /// lose them.
+  static void add(OfMode w, Modes& r) {
+    for (Eigen::Index k = 0; k < r.rows(); ++k) {
       const double length = std::hypot(r(k, k), w[k]);
       if (length == 0) continue;
       const double c = r(k, k) / length, s = w[k] / length;
-      for (int j = k; j < part->modes; ++j) {
+      for (Eigen::Index j = k; j < r.cols(); ++j) {
         const double upper = r(k, j), lower = w[j];
         r(k, j) = c * upper + s * lower;
         w[j] = c * lower - s * upper;
       }
     }
-    constexpr int between_looks = 32;
-    if (++part->balances % between_looks == 0)
-      part->is_held = Eigen::JacobiSVD<Modes>(r).singularValues().minCoeff() > resists;
+  }
+
+  /// Adds the balances of all processes up, so that all choose the same entities.
+  void take_those_of_all() {
+    std::vector<double> mine;
+    for (const Part& part : parts_)
+      mine.insert(mine.end(), part.triangle.data(), part.triangle.data() + part.triangle.size());
+    const std::vector<double> all = parallel::gather(mine);
+    const double* place = all.data();
+    for (Part& part : parts_) part.triangle.setZero();
+    for (int process = 0; process < parallel::size(); ++process)
+      for (Part& part : parts_) {
+        const Modes theirs = Eigen::Map<const Modes>(place, part.modes, part.modes);
+        for (int k = 0; k < part.modes; ++k) add(theirs.row(k), part.triangle);
+        part.is_held = false;  // the sum says whether it is
+        place += theirs.size();
+      }
   }
 
   const UnknownBlock& block_;
   const SparseMatrix& a_;
-  std::vector<int> entity_of_;  ///< of every unknown; -1 for those of other blocks
-  std::vector<int> part_of_;    ///< of every entity
+  const std::vector<int>& rows_;  ///< the numbers of the rows of the matrix, which are those of this process
+  std::vector<int> entity_of_;    ///< of every unknown; -1 for those of other blocks
+  std::vector<int> part_of_;      ///< of every entity
   std::vector<Part> parts_;
 };
 
@@ -177,7 +215,6 @@ bool are_at_the_same_places(const UnknownBlock& a, const UnknownBlock& b) { retu
 
 std::vector<char> unknowns_held_by_fractures(const LinearSystem& system) {
   const auto unknowns = static_cast<std::size_t>(system.local.cols());
-  SPREKK_EXPECT(system.local.rows() == system.local.cols(), system.local.rows(), system.local.cols());
   expect_sound(system);
   std::vector<char> is_balance(unknowns, 0), held(unknowns, 0);
   for (const UnknownBlock& block : system.blocks)

@@ -72,11 +72,13 @@ bool is_direct(const LinearOptions& options, int unknowns) {
 }
 
 std::unique_ptr<LinearSolver> make_condensing_solver(const LinearOptions& options) {
-  if (options.type == "belos" || parallel::size() > 1) return make_linear_solver(options);
-  return std::make_unique<SeparatedSolver>([options]() -> std::unique_ptr<LinearSolver> {
+  if (options.type == "belos") return make_linear_solver(options);
+  const auto make = [options]() -> std::unique_ptr<LinearSolver> {
     if (options.condense) return std::make_unique<CondensedSolver>(options);
     return make_linear_solver(options);
-  });
+  };
+  if (parallel::size() > 1) return make();
+  return std::make_unique<SeparatedSolver>(make);
 }
 
 }  // namespace sprekk

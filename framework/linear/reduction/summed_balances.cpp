@@ -316,18 +316,20 @@ LinearReport SummedBalances::solve(const Vector& b_rows, Vector& x) {
 
 std::optional<LinearReport> SummedBalances::factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
                                                             const SparseMatrix& rows, Eigen::MatrixXd& schur) {
-  if (parallel::size() > 1 || !exchanging_rows(system.local, system.blocks).empty()) return std::nullopt;
+  const bool is_alone = parallel::size() == 1;
+  if (!exchanging_rows(is_alone ? system.local : local_rows(system), system.blocks).empty()) return std::nullopt;
   sums_.clear();
   return solver_->factor_bordered(system, columns, rows, schur);
 }
 
 bool SummedBalances::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
   for (const Sum& sum : sums_) {
-    SPREKK_ASSERT(are_indices(sum.rows, columns.rows()), columns.rows());
-    Eigen::RowVectorXd total = Eigen::RowVectorXd::Zero(columns.cols());
-    for (const int row : sum.rows) total += columns.row(row);
-    for (const auto& [row, factor] : sum.given) total += factor * columns.row(row);
-    columns.row(sum.rows.front()) = total;
+    SPREKK_ASSERT(are_indices(sum.owned, columns.rows()), columns.rows());
+    Vector total = Vector::Zero(columns.cols());
+    for (const int row : sum.owned) total += columns.row(row);
+    for (const auto& [row, factor] : sum.owned_given) total += factor * columns.row(row);
+    parallel::sum(total);
+    if (sum.replaced >= 0) columns.row(sum.replaced) = total;
   }
   return solver_->solve_columns(columns);
 }
