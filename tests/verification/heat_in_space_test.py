@@ -99,6 +99,23 @@ time: {{end: 10 day, step: 5 day}}
 """
 
 
+def warmed(geometry, mesh, boundary):
+    """A body of rock that is warmed by 30 K."""
+    return f"""
+name: warmed
+geometry:
+  {geometry}
+{mesh}
+components:
+  heat: {{type: matrix_heat/prescribed, temperature: "(350 + 30*t/s) K"}}
+  rock: {{type: poromechanics/fem, young_modulus: 10 GPa, poisson_ratio: 0.25, boundary: {{{boundary}}}}}
+couplers: [{{type: thermal_stress, between: [heat, rock], expansion: 1e-5 1/K}}]
+schedule: [{{solve: rock}}]
+time: {{end: 1 s, step: 1 s}}
+output: {{fields: true}}
+"""
+
+
 def quarter(cells, steps):
     """Water enters a horizontal fracture in its corner, and gives its heat off to the rock above and below."""
     return f"""
@@ -202,6 +219,23 @@ class HeatInSpace(SpaceRuns):
                 results = self.run_text(at_rest(gravity))
                 scale = math.hypot(*gravity) * 1000 * 1e-3 * 4 * 1e-13 / 1e-3
                 self.assertLess(np.abs(results.fields()["pore.velocity"]).max(), 1e-8 * scale)
+
+    def test_rock_that_is_warmed_expands_freely_or_is_pressed(self):
+        """Reference: u = 1e-5 30 x without stress where rollers hold three sides; -3 K alpha Delta T where they hold all."""
+        pressed = -3 * 10e9 / (3 * (1 - 2 * 0.25)) * 1e-5 * 30
+        for mesh in ("{size: 0.4 m}", "{kind: structured, shape: hexahedra, cells: [3, 3, 2]}", "{kind: structured, shape: wedges, cells: [3, 3, 2]}"):
+            with self.subTest(mesh):
+                rollers = ", ".join(f"{side}: {{displacement_normal: 0 m}}" for side in ("left", "front", "bottom"))
+                rock = self.run_text(warmed(BOX, f"mesh: {mesh}", rollers)).fields()
+                self.assertLess(np.abs(rock["rock.displacement"] - 3e-4 * rock.points).max(), 1e-10 * 3e-4)
+                self.assertLess(np.abs(rock["rock.stress"]).max(), 1e-9 * abs(pressed))
+        for turn, wedges in ((TURN, False), (TURN @ np.diag([1, -1, 1]), True)):
+            with self.subTest(wedges=wedges):
+                name = f"warm_{next(self.numbers)}.msh"
+                self.write(mesh_file(turn, wedges=wedges, fault=False), name)
+                rock = self.run_text(warmed(f"file: {name}", "", "west: {displacement_normal: 0 m}, others: {displacement_normal: 0 m}")).fields()
+                self.assertLess(np.abs(rock["rock.displacement"]).max(), 1e-12 * 3e-4 + 1e-17)
+                self.assertLess(np.abs(rock["rock.stress"] - np.array([pressed] * 3 + [0] * 3)).max(), 1e-9 * abs(pressed))
 
     def test_a_fracture_fed_at_a_point_warms_the_rock_as_in_lauwerier(self):
         """Reference: Lauwerier 1955 with the area that the fluid has passed in place of the distance, T = erfc((k A/(c_f Q))/sqrt(D (t - A a/Q))), A = pi r^2/4
