@@ -21,7 +21,7 @@ StepAttempts::Outcome StepAttempts::run() {
                                 duration_text(step_.dt)));
     // On a mesh that has grown within the step the attempt must come to its end: a checkpoint does not contain the
     // change.
-    if (const auto given_up = attempt(!has_grown)) return *given_up;
+    if (const auto given_up = try_once(!has_grown)) return *given_up;
     effort_.attempted(status_);
     if (!status_.converged) {
       if (!cut()) return Outcome::failed;
@@ -34,7 +34,7 @@ StepAttempts::Outcome StepAttempts::run() {
   }
 }
 
-std::optional<StepAttempts::Outcome> StepAttempts::attempt(bool may_be_interrupted) {
+std::optional<StepAttempts::Outcome> StepAttempts::try_once(bool may_be_interrupted) {
   try {
     const ScopedTimer timer(profile_, "steps");
     std::optional<interruption::Allowed> allowed;

@@ -33,7 +33,7 @@ class StepAttempts {
 
  private:
   /// Makes one attempt and sets the status. Returns the outcome of the step when no other attempt is to follow.
-  std::optional<Outcome> attempt(bool may_be_interrupted);
+  std::optional<Outcome> try_once(bool may_be_interrupted);
   StepTime next_step() const;
   /// Why a part lets no step be as long as the smallest; empty where none forbids it. Collective.
   std::string limit_steps();

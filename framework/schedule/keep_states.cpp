@@ -30,7 +30,7 @@ int Newton::keep_states(const StepTime& step, const std::vector<Vector>& start) 
   const std::vector<Vector> found = values();
   set(start);
   while (true) {
-    const StepStatus tried = attempt(step, options_.undamped, Until::search);
+    const StepStatus tried = iterate(step, options_.undamped, Until::search);
     iterations += tried.iterations;
     int released = 0;
     if (tried.converged)
@@ -140,7 +140,7 @@ void Newton::follow_softening(const StepTime& step) {
     passed_in_ = step;
   }
   const bool leads_elsewhere = path.converged && is_elsewhere(found);
-  if (!leads_elsewhere || !attempt(step, options_.undamped).converged) {
+  if (!leads_elsewhere || !iterate(step, options_.undamped).converged) {
     set(found);
     evaluate(step);
   }

@@ -294,7 +294,7 @@ std::string Newton::find_update(ResidualCheck& check, Vector& update) {
   return report.solved ? "" : "linear solver: " + report.reason;
 }
 
-StepStatus Newton::attempt(const StepTime& step, int undamped, Until until) {
+StepStatus Newton::iterate(const StepTime& step, int undamped, Until until) {
   was_singular_ = was_left_ = is_used_up_ = false;
   Seen seen;
   ResidualCheck check = evaluate(step);

@@ -115,7 +115,7 @@ class Newton {
   /// iterations.
   int keep_states(const StepTime& step, const std::vector<Vector>& start);
   /// Iterates, without a line search in the first `undamped` iterations.
-  StepStatus attempt(const StepTime& step, int undamped, Until until = Until::end);
+  StepStatus iterate(const StepTime& step, int undamped, Until until = Until::end);
   struct Seen;
   bool is_small(ResidualCheck& check, int iteration, Seen& seen);
   bool is_settled_solution(const StepTime& step, const ResidualCheck& check, int iteration, bool has_factors);

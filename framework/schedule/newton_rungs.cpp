@@ -27,7 +27,7 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
         [&] { return finish_with_own_derivatives(step, attempt_also_without_conditions(step, start, Until::end)); });
   if (status.converged || status.iterations <= 1) return status;
   // 3. Descent from the first iteration on: full steps may have led to where no descent leads back from.
-  if (options_.undamped > 0) try_again([&] { return finish_with_own_derivatives(step, attempt(step, 0)); });
+  if (options_.undamped > 0) try_again([&] { return finish_with_own_derivatives(step, iterate(step, 0)); });
   if (status.converged || !may_follow_path(step)) return status;
   // 4. The path from piece to piece.
   return follow_paths(step, start, std::move(status));
@@ -37,12 +37,12 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
 /// starts from fields whose conditions are inactive (PiecewiseSmooth::deactivate_conditions).
 StepStatus Newton::attempt_also_without_conditions(const StepTime& step, const std::vector<Vector>& start,
                                                    Until until) {
-  StepStatus tried = attempt(step, options_.undamped, until);
+  StepStatus tried = iterate(step, options_.undamped, until);
   if (tried.converged || !was_singular_) return tried;
   const int before = tried.iterations;
   set(start);
   for (PiecewiseSmooth* part : pieces_) part->deactivate_conditions();
-  tried = attempt(step, options_.undamped, until);
+  tried = iterate(step, options_.undamped, until);
   tried.iterations += before;
   return tried;
 }
@@ -56,7 +56,7 @@ bool Newton::is_nonlinear_in_pieces() const {
 StepStatus Newton::finish_with_own_derivatives(const StepTime& step, StepStatus status) {
   if (status.converged || !is_used_up_ || !is_nonlinear_in_pieces()) return status;
   const SearchModeGuard own(SearchMode::piecewise, SearchMode::without_shortcuts, pieces_);
-  StepStatus finished = attempt(step, options_.undamped);
+  StepStatus finished = iterate(step, options_.undamped);
   finished.iterations += status.iterations;
   return finished;
 }
@@ -87,7 +87,7 @@ StepStatus Newton::follow_paths(const StepTime& step, const std::vector<Vector>&
     // Iterates from the end of the path with the true coefficients, until balances hold.
     if (path.converged) {
       const std::vector<Vector> end = values();
-      path = attempt(step, options_.undamped);
+      path = iterate(step, options_.undamped);
       status.iterations += path.iterations;
       if (!path.converged && mode == SearchMode::piecewise_linear) {
         const std::string reason = path.reason;
@@ -121,7 +121,7 @@ StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<
   while (share < 1 && increment >= smallest) {
     const double next = std::min(1.0, share + increment);
     for (PiecewiseSmooth* part : pieces_) part->release_coefficients(next);
-    const StepStatus status = attempt(step, options_.undamped);
+    const StepStatus status = iterate(step, options_.undamped);
     iterations += status.iterations;
     if (status.converged) {
       share = next;
