@@ -113,6 +113,16 @@ class CrossingsInSpace(SpaceRuns):
             text = scene(fractures, turn, crossings, transmissivities={**UNLIKE, "c": 50.0}, widths=widths)
             self.assertAlmostEqual(self.flow(text) / (exact_flow(1e4, k_x) * (1 + 2.5 * height / DEPTH)), 1, delta=1e-9)
 
+    def test_fills_that_conduct_better_than_narrow_cells(self):
+        """Where crossings are as wide as triangles, what is left of a drop keeps the pressure between those given."""
+        fractures = {**conductor(), "c": [[-0.9, DEPTH / 2, -0.3], [0.9, DEPTH / 2, -0.3], [0.9, DEPTH / 2, 0.3], [-0.9, DEPTH / 2, 0.3]]}
+        for width in (0.1, 0.5):
+            known = {**UNLIKE, "a": 1e4 * width, "b": 10 * width, "c": 3 * width}
+            results = self.run_text(scene(fractures, TURN, "permeability: 1e9 m^2", transmissivities=known, widths=f"{width} m"))
+            pressure = results.fractures()["conduit.pressure"]
+            self.assertGreater(pressure.min(), 1 - 1e-9)
+            self.assertLess(pressure.max(), 3 + 1e-9)
+
     def test_a_barrier_through_the_whole_box(self):
         """Rock and two conductors, which cross each other on the barrier, have one pressure on each side of it: what passes goes through its walls, and
         through what fills its crossings."""

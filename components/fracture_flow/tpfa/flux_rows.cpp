@@ -108,9 +108,12 @@ void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
     JunctionFluxes::Half& half = halves[i];
     if (half.value == 0 || (way.kept == 1 && way.added == 0)) continue;
     const double added = way.added / mesh_.ridges[at.ridges.front()].measure;
-    const double passed = 1 / (way.kept + half.value * viscosity_[at.cells[i]] * added);
-    half.by_aperture *= way.kept * passed * passed;
-    for (auto& [point, by] : half.by_flux) by *= way.kept * passed * passed;
+    const double left = way.kept + half.value * viscosity_[at.cells[i]] * added;
+    const double least = drops_.least_kept(at.cells[i], at.ridges.front());
+    const double passed = 1 / std::max(left, least);
+    const double by_half = left < least ? passed : way.kept * passed * passed;
+    half.by_aperture *= by_half;
+    for (auto& [point, by] : half.by_flux) by *= by_half;
     half.value *= passed;
   }
 }

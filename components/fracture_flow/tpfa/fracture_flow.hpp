@@ -219,7 +219,7 @@ class FractureFlow : public Component,
   StoredFluid stored_fluid(int cell) const;  ///< in this step, m
   std::vector<int> cells_of(const FracturePlace& where) const;
   /// The end of a cell that is nearer to a point, and how far the point is on the way there from the centre. Where no
-  /// other cell meets this one the point counts as the centre, and so does every point in space.
+  /// other cell meets this one the point counts as the centre. In a plane alone.
   struct Spot {
     int end;        ///< a ridge
     double to_end;  ///< 0 to 1, but for what counts as equally near
@@ -246,7 +246,12 @@ class FractureFlow : public Component,
     double value;                                     ///< Pa where its pressure is prescribed, else the rate, m^2/s
     std::vector<std::pair<int, double>> shares = {};  ///< in this step
     double level = 0;                                 ///< Pa, of the point above the mean of these cells
+    double bore = 0;  ///< in space, with a radius r: ln(r_e/r)/(2 pi), with the radius r_e that the cells stand for
   };
+  /// How much higher the pressure at the point is than the mean of its cells, for each of its rate.
+  Rise rise_of(const OpenPoint& point) const;
+  /// OpenPoint::bore. Throws InputError where the cells are too small, or at the rim of their fracture.
+  double bore_at(const FracturePlace& where, int cell);
   void share(OpenPoint& point) const;
   void share_points();
   double pressure_at(const OpenPoint& point, double rate) const;  ///< Pa
@@ -298,9 +303,10 @@ class FractureFlow : public Component,
   };
   std::vector<Prescribed> prescribed_;  ///< whole fractures
   std::vector<OpenPoint> injected_points_, prescribed_points_;
-  mutable std::vector<double> let_in_;  ///< m^2/s, at each of prescribed_; found when their rows are replaced
-  std::vector<double> let_in_of_step_;  ///< the same as the flow was solved in this step: in the last substep
-  double step_length_ = 0;              ///< s
+  std::map<const FracturePlace*, double> bores_;  ///< OpenPoint::bore, which depends on the mesh alone
+  mutable std::vector<double> let_in_;            ///< m^2/s, at each of prescribed_; found when their rows are replaced
+  std::vector<double> let_in_of_step_;            ///< the same as the flow was solved in this step: in the last substep
+  double step_length_ = 0;                        ///< s
   EnteringDensity entering_density_ = EnteringDensity::of_step;
   std::vector<char> is_prescribed_;  ///< of each cell
 };

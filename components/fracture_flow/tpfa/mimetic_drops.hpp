@@ -30,6 +30,16 @@ class MimeticDrops {
   /// cell.
   std::vector<std::pair<int, double>> at(int cell, int ridge) const;
 
+  /// The part of the two-point drop h_k q_k/T at a ridge k of a cell that has to stay for a positive definite sum, if
+  /// as much of its kind goes at each of the cell's junctions. The largest eigenvalue of what goes, as the sum M has
+  /// it, is at most the sum of h_k (M^-1)_kk over them, and h_k (M^-1)_kk <= 1 + (distance of the ridge · its
+  /// length)/A. 0 in cells with two-point fluxes alone.
+  double least_kept(int cell, int ridge) const;
+
+  /// The drops from the centre of a cell to its ridges, times T, by the flows out through them: h + G, by places in
+  /// FractureCell::ridges.
+  Eigen::MatrixXd drops(const Mesh& mesh, int cell) const;
+
   /// The number of fracture cells in which two-point fluxes alone are not exact for linear pressures.
   static long cells_that_need_them(const Mesh& mesh);
 

@@ -64,6 +64,13 @@ void FractureFlow::note_input(Notes& notes) const {
                 fmt::format("two-point fluxes along fractures are not exact for linear pressures in {} of {} fracture "
                             "cells (their error there does not vanish with the size of cells) take fracture_flow/mfd",
                             count, mesh_.fracture_cell_count()));
+  for (const auto& [key, given] : options_.prescribed)
+    if (dimension == 3 && given.where.at && !given.where.radius)
+      notes.add(
+          name() + ".prescribed." + key + " without a radius",
+          fmt::format("{}: the rate of '{}' depends on the size of cells (they have its pressure, which at a point "
+                      "of a surface has no bound) give the 'radius' of its bore hole",
+                      given.where.origin.text(), key));
   note_ends_on_two_sides(notes);
   note_ends(notes);
   options_.crossings.note_input(mesh_, name(), notes);

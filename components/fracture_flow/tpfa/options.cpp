@@ -11,6 +11,19 @@ namespace {
 void add_where(Spec& spec, FracturePlace& where, const std::string& point) {
   spec.text("fracture", where.fracture, {.doc = "Name of the fracture; all fractures without it."});
   spec.point("at", where.at, {.unit = "m", .doc = point + "; without it the whole fracture, but for what grows."});
+  if constexpr (dimension == 3) {
+    spec.quantity("radius", where.radius,
+                  {.unit = "m",
+                   .range = positive(),
+                   .doc = "With `at`: of the bore hole there. The pressure around a point of a surface has no bound; "
+                          "that at this radius does not depend on the mesh.",
+                   .source = "Peaceman (1978)"});
+    spec.check([&where](const Node& node) {
+      if (where.radius && !where.at)
+        throw InputError(node.find("radius")->origin, "'radius' is that of a bore hole at a point",
+                         "without 'at' it is the whole fracture", "give the point, or remove the radius");
+    });
+  }
 }
 
 Spec injection_spec(Injection& injection) {

@@ -16,8 +16,9 @@ namespace sprekk::fracture_flow {
 /// A place on the fractures: the point of a fracture that is nearest to a given one, a whole fracture, or all of them.
 struct FracturePlace {
   Origin origin;
-  std::string fracture;     ///< "" for all
-  std::optional<Point> at;  ///< m
+  std::string fracture;          ///< "" for all
+  std::optional<Point> at;       ///< m
+  std::optional<double> radius;  ///< m, of the bore hole at a point of a surface
 };
 
 /// A rate of fluid that is injected at a place.

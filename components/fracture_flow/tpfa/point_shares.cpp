@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
+#include "framework/discretization/along_fracture.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/ridge_distance.hpp"
 
@@ -20,8 +21,6 @@ constexpr double equally_near = 2e-6;  // of half a cell: so far beyond its end 
 FractureFlow::Spot FractureFlow::spot(int cell, const Point& at) const {
   SPREKK_EXPECT(is_index(cell, mesh_.fracture_cell_count()), cell, mesh_.fracture_cell_count());
   const FractureCell& home = mesh_.fracture_cells[cell];
-  // Around a point of a surface the pressure has no value that cells could resolve: the cell takes what enters there.
-  if (dimension == 3) return {home.ridges[0], 0};
   const auto end = [&](int k) -> const Point& { return mesh_.ridges[home.ridges[k]].center; };
   const double off = (at - home.center).dot((end(1) - end(0)).normalized());
   const int nearer = home.ridges[off < 0 ? 0 : 1];
@@ -96,7 +95,16 @@ double FractureFlow::part_before(const Spot& spot, const HalfCell& home) {
   return spot.to_end >= 1 - equally_near ? spot.to_end : spot.to_end * home.conductance / home.own;
 }
 
+/// In space the cells around keep the total and the place of what enters (along_fracture), so that the pressure away
+/// from there does not depend on the cell that holds the point.
 std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Point& at) const {
+  if constexpr (dimension == 3) {
+    std::vector<std::pair<int, double>> shares = along_fracture(mesh_, cell, point_at(cell, at));
+    const bool is_alone = std::ranges::any_of(shares, [&](const auto& share) {
+      return is_prescribed_[share.first] != 0 || transmissivity(share.first).value == 0;
+    });
+    return is_alone ? std::vector<std::pair<int, double>>{{cell, 1.0}} : shares;
+  }
   const Spot spot = this->spot(cell, at);
   const std::vector<HalfCell> halves = halves_at(spot.end, cell);
   if (is_alone(spot, halves, cell)) return {{cell, 1.0}};
@@ -111,7 +119,15 @@ std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Poin
   return shares;
 }
 
+FractureFluid::Rise FractureFlow::rise_of(const OpenPoint& point) const {
+  if constexpr (dimension == 2) return rise_at(point.cell, point.at);
+  const auto [value, by_aperture] = transmissivity(point.cell);
+  if (point.bore == 0 || value == 0) return {};
+  return {point.bore / value, {{point.cell, -point.bore / (value * value) * by_aperture}}};
+}
+
 FractureFluid::Rise FractureFlow::rise_at(int cell, const Point& at) const {
+  if constexpr (dimension == 3) return {};
   const Spot spot = this->spot(cell, at);
   const std::vector<HalfCell> halves = halves_at(spot.end, cell);
   if (is_alone(spot, halves, cell)) return {};

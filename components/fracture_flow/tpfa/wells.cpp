@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/fracture_flow/tpfa/equivalent_radius.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/discretization/along_fracture.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/mesh/geometry.hpp"
@@ -61,9 +63,12 @@ void FractureFlow::check_points_apart() const {
   for (const auto& [name, given] : options_.prescribed) {
     if (!given.where.at) continue;
     const int cell = cells_of(given.where).front();
-    const auto [end, to_end] = spot(cell, *given.where.at);
-    if (dimension == 2 && to_end < at_centre) continue;
-    const Point& position = dimension == 2 ? mesh_.ridges[end].center : *given.where.at;
+    Point position = *given.where.at;
+    if constexpr (dimension == 2) {
+      const auto [end, to_end] = spot(cell, position);
+      if (to_end < at_centre) continue;
+      position = mesh_.ridges[end].center;
+    }
     for (const Taken& other : taken)
       if ((other.end - position).norm() < at_centre * mesh_.fracture_cells[cell].size())
         throw InputError(given.where.origin, "'" + name + "' prescribes a pressure where there is one",
@@ -104,6 +109,26 @@ std::vector<std::pair<int, double>> FractureFlow::shares_by_length(const Fractur
   return shares;
 }
 
+double FractureFlow::bore_at(const FracturePlace& where, int cell) {
+  if constexpr (dimension == 3) {
+    if (!where.radius) return 0;
+    if (const auto known = bores_.find(&where); known != bores_.end()) return known->second;
+    const Point at = point_at(cell, *where.at);
+    const double around = equivalent_radius(mesh_, drops_, cell, at, along_fracture(mesh_, cell, at));
+    if (around == 0)
+      throw InputError(
+          where.origin, "what a bore hole feels is not known here",
+          "the fracture cell at " + to_text(at) + " is at the rim of its fracture, or where it meets others",
+          "choose a point that is farther inside, or smaller cells");
+    if (around <= *where.radius)
+      throw InputError(where.origin, "the fracture cells are too small for the bore hole",
+                       fmt::format("those at {} stand for a radius of {:.3g} m", to_text(at), around),
+                       "use larger cells there");
+    return bores_[&where] = std::log(around / *where.radius) / (2 * M_PI);
+  }
+  return 0;
+}
+
 void FractureFlow::prescribe(const StepTime& step) {
   prescribed_.clear();
   let_in_.clear();
@@ -116,7 +141,8 @@ void FractureFlow::prescribe(const StepTime& step) {
       const double pressure = value_in_step(given.pressure, fracture_cell_place(mesh_, cell), step);
       check_bound(pressure, given.where.origin, "the pressure");
       if (given.where.at) {
-        prescribed_points_.push_back({name, cell, *given.where.at, pressure});
+        prescribed_points_.push_back(
+            {.name = name, .cell = cell, .at = *given.where.at, .value = pressure, .bore = bore_at(given.where, cell)});
         continue;
       }
       const FractureCell& at = mesh_.fracture_cells[cell];
@@ -134,7 +160,11 @@ void FractureFlow::prescribe(const StepTime& step) {
     };
     if (injection.where.at) {
       const int cell = cells_of(injection.where).front();
-      injected_points_.push_back({name, cell, *injection.where.at, rate(cell)});
+      injected_points_.push_back({.name = name,
+                                  .cell = cell,
+                                  .at = *injection.where.at,
+                                  .value = rate(cell),
+                                  .bore = bore_at(injection.where, cell)});
     } else {
       for (const auto& [cell, share] : shares_by_length(injection.where))
         source.rates.emplace_back(cell, rate(cell) * share);
@@ -193,7 +223,7 @@ void FractureFlow::assemble_prescribed_points(Assembly& assembly, const StepTime
       shares.emplace_back(k, cell, share);
       into.emplace_back(cell, k, -step.dt * share);
     }
-    const Rise rise = rise_at(point.cell, point.at);
+    const Rise rise = rise_of(point);
     of_rate[k] = rise.value;
     given[k] = point.value - point.level;
     for (const auto& [cell, by] : rise.by_aperture) by_aperture.emplace_back(k, cell, by * rate.now()[k]);
@@ -272,7 +302,7 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
 
 /// The pressure at a point where fluid is injected, which has a kink there.
 double FractureFlow::pressure_at(const OpenPoint& point, double rate) const {
-  double pressure = point.level + rise_at(point.cell, point.at).value * rate;
+  double pressure = point.level + rise_of(point).value * rate;
   for (const auto& [cell, share] : point.shares) pressure += share * pressure_.now()[cell];
   return pressure;
 }

@@ -1,0 +1,112 @@
+#!/usr/bin/python3
+"""points_on_fractures_in_space_test.py SPREKK [MPIEXEC]: rates and pressures at points of a fracture in space, in general position.
+
+A rate q at a point of a surface without end has the pressure -mu q/(2 pi T) ln r (Thiem); here it holds where the fracture ends. Away from the point
+it does not depend on which cell holds it, and at the radius of a bore hole it does not depend on the cells.
+
+Twins: another place by 1e-9, a mirror image, two processes."""
+
+import math
+import unittest
+
+import numpy as np
+
+from scene_runs import on_two_processes
+from scenes_in_space import SIDES, SpaceRuns
+
+RATE, TRANSMISSIVITY, VISCOSITY, BORE = 3.0, 0.7, 0.5, 1e-3  # m^3/s, m^3, Pa s, m
+SCALE = VISCOSITY * RATE / (2 * math.pi * TRANSMISSIVITY)  # Pa
+PLACES = ((0.5, 0.5), (0.53, 0.47), (0.4123, 0.617), (0.61, 0.41))
+CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
+
+
+def on_plane(x, y, mirror=1):
+    return np.array([mirror * x, y, 0.3 + 0.3 * x + 0.2 * y])
+
+
+def scene(place, what, size, mirror=1, more=""):
+    """`what`: of a point, without its place."""
+    at = on_plane(*place, mirror)
+    distance = "sqrt(" + " + ".join(f"({axis}/m - {float(c)!r})^2" for axis, c in zip("xyz", at)) + ")"
+    sides = ", ".join(f"{side}: {{pressure: (-{SCALE!r}*log({distance})) Pa}}" for side in SIDES[:4])
+    points = ", ".join("[" + ", ".join(f"{float(c)!r} m" for c in on_plane(x, y, mirror)) + "]" for x, y in CORNERS)
+    kind, value = what.split(":", 1)
+    return f"""
+name: point
+geometry:
+  box: {{x: {"[0 m, 1 m]" if mirror == 1 else "[-1 m, 0 m]"}, y: [0 m, 1 m], z: [0 m, 1 m]}}
+  fractures: {{f: {{points: [{points}]}}}}
+mesh: {{size: {max(size, 0.3)} m, fracture_size: {size} m, growth: 2{more}}}
+components:
+  conduit:
+    type: fracture_flow/mfd
+    viscosity: {VISCOSITY} Pa*s
+    fluid_compressibility: 0 1/Pa
+    initial_aperture: 1 mm
+    transmissivity: constant
+    transmissivity_value: {TRANSMISSIVITY} m^3
+    {kind}: {{p: {{at: [{', '.join(f'{float(c)!r} m' for c in at)}], {value}}}}}
+    boundary: {{{sides}}}
+schedule: [{{solve: conduit}}]
+time: {{end: 1 s, step: 1 s}}
+"""
+
+
+INJECTED = f"injection:rate: {RATE} m^3/s, radius: {BORE} m"
+GIVEN = f"prescribed:pressure: {-SCALE * math.log(BORE)!r} Pa, radius: {BORE} m"
+
+
+class PointsOnFractures(SpaceRuns):
+    def injected(self, place, size, mirror=1, **how):
+        """The error away from the point, and that at its bore hole, over SCALE."""
+        results = self.run_text(scene(place, INJECTED, size, mirror), **how)
+        fracture = results.fractures()
+        distance = np.linalg.norm(fracture.centres - on_plane(*place, mirror), axis=1)
+        far = distance > 0.25
+        error = fracture["conduit.pressure"][far] / SCALE + np.log(distance[far])
+        away = math.sqrt((fracture.sizes[far] * error ** 2).sum() / fracture.sizes[far].sum())
+        return away, results["conduit.p.pressure"][-1] / SCALE + math.log(BORE)
+
+    def test_a_rate_has_its_pressure_wherever_it_lies_in_a_cell(self):
+        errors = np.array([[self.injected(place, size) for place in PLACES] for size in (0.1, 0.05)])
+        print("errors of the pressure away from a point that injects, and at its bore hole:\n", errors)
+        away = errors[:, :, 0].max(axis=1)
+        self.assertLess(away[1], 0.35 * away[0])
+        self.assertLess(np.abs(errors[0, :, 1]).max(), 0.02)
+        self.assertLess(np.abs(errors[1, :, 1]).max(), 0.01)
+
+    def test_a_pressure_lets_its_rate_in_on_every_mesh(self):
+        for place in PLACES[:3]:
+            for size in (0.15, 0.07):
+                rate = self.run_text(scene(place, GIVEN, size))["conduit.p.rate"][-1]
+                print(place, size, rate / RATE - 1)
+                self.assertAlmostEqual(rate / RATE, 1, delta=0.005)
+
+    def test_twins(self):
+        place = PLACES[2]
+        rate = self.run_text(scene(place, GIVEN, 0.1))["conduit.p.rate"][-1]
+        moved = self.run_text(scene(np.array(place) * (1 + 1e-9), GIVEN, 0.1))["conduit.p.rate"][-1]
+        self.assertAlmostEqual(moved / rate, 1, delta=1e-7)
+        self.assertAlmostEqual(self.run_text(scene(place, GIVEN, 0.1, mirror=-1))["conduit.p.rate"][-1] / RATE, 1, delta=0.005)
+
+    @on_two_processes
+    def test_two_processes_have_the_answer_of_one(self):
+        for what, column in ((GIVEN, "conduit.p.rate"), (INJECTED, "conduit.p.pressure")):
+            text = scene(PLACES[2], what, 0.1, more=", division: scattered")
+            one, two = (self.run_text(text, processes=count)[column][-1] for count in (1, 2))
+            self.assertAlmostEqual(two / one, 1, delta=1e-9)
+
+    def test_what_is_told(self):
+        for place, radius, size, words, code in (((0.5, 0.5), 0.5, 0.1, "too small for the bore hole", 2), ((0.999, 0.5), 1e-3, 0.1, "at the rim", 2),
+                                                 ((0.5, 0.5), None, 0.1, "give the 'radius' of its bore hole", 0), ((0.5, 0.5), 1e-3, 0.1, "", 0)):
+            with self.subTest(words):
+                given = GIVEN.split(", radius")[0] + (f", radius: {radius} m" if radius else "")
+                called = self.call("check", self.write(scene(place, given, size), f"told_{next(self.numbers)}.yaml"))
+                said = called.stdout + called.stderr
+                self.assertEqual(called.returncode, code, said)
+                self.assertIn(words, said)
+                self.assertEqual("bore hole" in said, bool(words))
+
+
+if __name__ == "__main__":
+    unittest.main()
