@@ -21,18 +21,14 @@ struct Way {
 
 class ShortLivedSchurComplement : public testing::Test {
  protected:
-  ShortLivedSchurComplement() {
-    for (SubMatrix* sub : {&split.bb, &split.bf, &split.fb}) sub->update(fractured.local.valuePtr());
-  }
+  ShortLivedSchurComplement() { split.update(fractured.local); }
   BulkSplitting split{fractured};
 };
 
 class SchurComplementOf : public testing::TestWithParam<Way> {
  protected:
   SchurComplementOf() {
-    split.bb.update(fractured.local.valuePtr());
-    split.bf.update(fractured.local.valuePtr());
-    split.fb.update(fractured.local.valuePtr());
+    split.update(fractured.local);
     LinearOptions options;
     options.type = GetParam().type;
     solver = make_linear_solver(options);
