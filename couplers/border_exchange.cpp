@@ -6,6 +6,7 @@
 #include "components/capabilities/matrix_border.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "couplers/passed_amounts.hpp"
+#include "couplers/wall_fluxes.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_state.hpp"
@@ -184,19 +185,9 @@ class BorderExchange : public Coupler, public KeepsState, public CountsAmounts, 
     }
     assembly.add(*flux_, of_flux.cwiseProduct(flux_->now()));
     assembly.diagonal(*flux_, *flux_, of_flux);
-    for (const int side : {0, 1}) {
-      const Vector factors = side == 0 ? Vector(-of_trace) : of_trace;
-      const LinearExpression& trace = *traces[side];
-      assembly.add(*flux_, factors.cwiseProduct(trace.now()));
-      for (const LinearExpression::Term& term : trace.terms) {
-        // Pressures of the two sides are nearly equal: their difference has the round-off of either.
-        assembly.compare_round_off(
-            *flux_, of_trace.cwiseProduct(term.matrix.entries().cwiseAbs() * term.field->now().cwiseAbs())
-                        .lpNorm<Eigen::Infinity>());
-        if (assembly.wants_derivatives())
-          assembly.derivative(*flux_, *term.field, SparseMatrix(factors.asDiagonal() * term.matrix.entries()));
-      }
-    }
+    // Pressures of the two sides are nearly equal: their difference has the round-off of either.
+    add_trace(assembly, *flux_, *traces[0], -of_trace);
+    add_trace(assembly, *flux_, *traces[1], of_trace);
   }
 
   const Mesh& mesh_;

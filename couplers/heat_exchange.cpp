@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/capabilities/temperature.hpp"
+#include "couplers/wall_fluxes.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
@@ -46,20 +47,12 @@ class HeatExchange : public Coupler {
         matrix_(context.the<MatrixTemperature>()),
         walls_(context.the<HeatWalls>()),
         fracture_(context.the<FractureTemperature>()),
+        fluxes_(mesh_),
         conductance_(fracture_.wall_conductance()) {
     context.determine(walls_.wall_heat_flux());
-    std::vector<Triplet> picks, lengths;
     const std::vector<Place> places = fracture_cell_places(mesh_);
-    for (int w = 0; w < mesh_.wall_count(); ++w) {
-      picks.emplace_back(w, w / 2, 1.0);
-      lengths.emplace_back(w / 2, w, mesh_.fracture_cells[w / 2].measure);
-      if (options.conductance) conductance_[w] = options.conductance->at(places[w / 2]);
-    }
-    to_walls_.resize(mesh_.wall_count(), mesh_.fracture_cell_count());
-    to_walls_.setFromTriplets(picks.begin(), picks.end());
-    SparseMatrix outflow(mesh_.fracture_cell_count(), mesh_.wall_count());
-    outflow.setFromTriplets(lengths.begin(), lengths.end());
-    outflow_ = Operator(std::move(outflow));
+    for (int w = 0; options.conductance && w < mesh_.wall_count(); ++w)
+      conductance_[w] = options.conductance->at(places[w / 2]);
   }
 
   /// Heat that passes the walls in a step is that of one flux, for both sides.
@@ -70,15 +63,7 @@ class HeatExchange : public Coupler {
   }
 
   void begin_step(const StepTime&) override {
-    const Field& flux = walls_.wall_heat_flux();
-    Vector in_front = Vector::Ones(mesh_.wall_count());
-    for (const LinearExpression::Term& term : walls_.wall_temperature().terms)
-      if (term.field == &flux)
-        for (int w = 0; w < mesh_.wall_count(); ++w) {
-          const double resistance = term.matrix.entries().coeff(w, w);
-          if (resistance > 0) in_front[w] = 1 / resistance;
-        }
-    exchange(mesh_, Location::wall, 1, in_front);
+    const Vector in_front = conductance_in_front(mesh_, walls_.wall_temperature(), walls_.wall_heat_flux());
     find_conduction_along(in_front);
     const Vector scale = (conductance_ + in_front).cwiseInverse();
     of_flux_ = scale;
@@ -88,25 +73,18 @@ class HeatExchange : public Coupler {
 
   void assemble(Assembly& assembly, const StepTime& step) const override {
     const Field &flux = walls_.wall_heat_flux(), &temperature = fracture_.temperature();
-    if (assembly.has_row(temperature)) assembly.linear(temperature, outflow_, flux, step.dt);
+    if (assembly.has_row(temperature)) assembly.linear(temperature, fluxes_.outflow, flux, step.dt);
     if (!assembly.has_row(flux)) return;
-    const LinearExpression& trace = walls_.wall_temperature();
     assembly.add(flux, of_flux_.cwiseProduct(flux.now()));
-    assembly.add(flux, of_temperature_.cwiseProduct(trace.now()));
-    assembly.add(flux, -of_temperature_.cwiseProduct(to_walls_ * temperature.now()));
+    assembly.diagonal(flux, flux, of_flux_);
+    add_trace(assembly, flux, walls_.wall_temperature(), of_temperature_);
+    assembly.add(flux, -of_temperature_.cwiseProduct(fluxes_.to_walls * temperature.now()));
     // Where no wall conducts, fluxes are zero, up to round-off relative to what the rock at the walls would conduct.
     if (of_temperature_.isZero(0))
       assembly.compare_round_off(flux, std::max(matrix_.temperature().now().lpNorm<Eigen::Infinity>(),
                                                 temperature.now().lpNorm<Eigen::Infinity>()));
-    for (const LinearExpression::Term& term : trace.terms)
-      assembly.compare_round_off(
-          flux, of_temperature_.cwiseProduct(term.matrix.entries().cwiseAbs() * term.field->now().cwiseAbs())
-                    .lpNorm<Eigen::Infinity>());
     if (!assembly.wants_derivatives()) return;
-    assembly.diagonal(flux, flux, of_flux_);
-    for (const LinearExpression::Term& term : trace.terms)
-      assembly.derivative(flux, *term.field, SparseMatrix(of_temperature_.asDiagonal() * term.matrix.entries()));
-    assembly.derivative(flux, temperature, SparseMatrix((-of_temperature_).asDiagonal() * to_walls_));
+    assembly.derivative(flux, temperature, SparseMatrix((-of_temperature_).asDiagonal() * fluxes_.to_walls));
   }
 
   void note_step(Notes& notes, const StepTime&) const override {
@@ -168,9 +146,8 @@ class HeatExchange : public Coupler {
   MatrixTemperature& matrix_;
   HeatWalls& walls_;
   FractureTemperature& fracture_;
-  Vector conductance_;     ///< W/(m^2 K), one a wall
-  SparseMatrix to_walls_;  ///< walls × fracture cells
-  Operator outflow_;       ///< fracture cells × walls: lengths
+  WallFluxes fluxes_;
+  Vector conductance_;  ///< W/(m^2 K), one a wall
   Vector of_flux_, of_temperature_;
   std::string along_;  ///< a note, or ""
 };

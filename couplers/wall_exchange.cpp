@@ -9,6 +9,7 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "couplers/passed_amounts.hpp"
+#include "couplers/wall_fluxes.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_state.hpp"
@@ -46,39 +47,17 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
         walls_(context.the<MatrixWalls>()),
         fluid_(context.find<MatrixFluid>()),
         fracture_(context.the<FractureFluid>()),
+        fluxes_(mesh_),
         start_time_(context.start_time),
         passed_(context.fields, mesh_, context.name, Location::wall, walls_.wall_flux(), fracture_.pressure(), "matrix",
                 "fracture") {
     context.determine(walls_.wall_flux());
     if (fluid_ && walls_.is_permeable()) fracture_.accept_rock_fluid(*fluid_, walls_);
-    std::vector<Triplet> entries, sums, counts;
-    for (int w = 0; w < mesh_.wall_count(); ++w) {
-      entries.emplace_back(w, w / 2, 1.0);
-      sums.emplace_back(w / 2, w, mesh_.fracture_cells[w / 2].measure);
-      counts.emplace_back(w / 2, w, 1.0);
-    }
-    to_walls_.resize(mesh_.wall_count(), mesh_.fracture_cell_count());
-    to_walls_.setFromTriplets(entries.begin(), entries.end());
-    SparseMatrix inflow(mesh_.fracture_cell_count(), mesh_.wall_count());
-    inflow.setFromTriplets(sums.begin(), sums.end());
-    inflow_ = Operator(std::move(inflow));
-    of_both_walls_.resize(mesh_.fracture_cell_count(), mesh_.wall_count());
-    of_both_walls_.setFromTriplets(counts.begin(), counts.end());
   }
 
   bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {
-    const Field& flux = walls_.wall_flux();
-    SPREKK_EXPECT(flux.size() == mesh_.wall_count(), flux.name(), flux.size(), mesh_.wall_count());
-    matrix_conductance_ = Vector::Ones(mesh_.wall_count());
-    for (const LinearExpression::Term& term : walls_.wall_pressure().terms)
-      if (term.field == &flux)
-        for (int w = 0; w < mesh_.wall_count(); ++w) {
-          const double resistance = term.matrix.entries().coeff(w, w);
-          SPREKK_ASSERT(std::isfinite(resistance), w, resistance);
-          if (resistance > 0) matrix_conductance_[w] = 1 / resistance;
-        }
-    exchange(mesh_, Location::wall, 1, matrix_conductance_);
+    matrix_conductance_ = conductance_in_front(mesh_, walls_.wall_pressure(), walls_.wall_flux());
   }
 
   void assemble(Assembly& assembly, const StepTime& step) const override {
@@ -86,8 +65,9 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
     const Field& pressure = fracture_.pressure();
     if (assembly.has_row(pressure)) {
       BalanceRows(assembly, pressure)
-          .store(of_both_walls_ * (assembly.has_row(flux) ? passed_.uncounted_at_start() : passed_.uncounted_now()));
-      if (assembly.has_row(flux)) assembly.linear(pressure, inflow_, flux, step.dt);
+          .store(fluxes_.to_walls.transpose() *
+                 (assembly.has_row(flux) ? passed_.uncounted_at_start() : passed_.uncounted_now()));
+      if (assembly.has_row(flux)) assembly.linear(pressure, fluxes_.outflow, flux, step.dt);
     }
     if (!assembly.has_row(flux)) return;
 
@@ -104,27 +84,16 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
     }
     assembly.add(flux, of_flux.cwiseProduct(flux.now()));
     assembly.diagonal(flux, flux, of_flux);
-    const LinearExpression& trace = walls_.wall_pressure();
-    const Vector trace_now = trace.now();
-    SPREKK_ASSERT(trace_now.size() == walls, trace_now.size(), walls);
-    assembly.add(flux, of_trace.cwiseProduct(trace_now));
-    assembly.add(flux, of_pressure.cwiseProduct(to_walls_ * pressure.now()));
-    // The trace is itself a difference of larger numbers, where the matrix drains into a fracture of little pressure.
-    for (const LinearExpression::Term& term : trace.terms)
-      assembly.compare_round_off(flux,
-                                 of_trace.cwiseProduct(term.matrix.entries().cwiseAbs() * term.field->now().cwiseAbs())
-                                     .lpNorm<Eigen::Infinity>());
+    const Vector trace = add_trace(assembly, flux, walls_.wall_pressure(), of_trace);
+    assembly.add(flux, of_pressure.cwiseProduct(fluxes_.to_walls * pressure.now()));
     if (!assembly.wants_derivatives()) return;
-    for (const LinearExpression::Term& term : trace.terms)
-      assembly.derivative(flux, *term.field, SparseMatrix(of_trace.asDiagonal() * term.matrix.entries()));
-    assembly.derivative(flux, pressure, SparseMatrix(of_pressure.asDiagonal() * to_walls_));
+    assembly.derivative(flux, pressure, SparseMatrix(of_pressure.asDiagonal() * fluxes_.to_walls));
     Vector by_aperture(walls);
     for (int w = 0; w < walls; ++w) {
-      const double difference =
-          of_trace[w] > 0 ? -flux.now()[w] / kappa.value[w] : trace_now[w] - pressure.now()[w / 2];
+      const double difference = of_trace[w] > 0 ? -flux.now()[w] / kappa.value[w] : trace[w] - pressure.now()[w / 2];
       by_aperture[w] = walls_.is_behind_wall(w) ? of_flux[w] * kappa.by_aperture[w] * difference : 0;
     }
-    assembly.derivative(flux, fracture_.aperture(), SparseMatrix(by_aperture.asDiagonal() * to_walls_));
+    assembly.derivative(flux, fracture_.aperture(), SparseMatrix(by_aperture.asDiagonal() * fluxes_.to_walls));
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
@@ -195,11 +164,9 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
   MatrixWalls& walls_;
   MatrixFluid* fluid_;
   FractureFluid& fracture_;
-  double start_time_;           ///< s
-  PassedAmounts passed_;        ///< through each wall
-  SparseMatrix to_walls_;       ///< walls × fracture cells
-  Operator inflow_;             ///< fracture cells × walls: lambda times length
-  SparseMatrix of_both_walls_;  ///< fracture cells × walls: ones
+  WallFluxes fluxes_;
+  double start_time_;     ///< s
+  PassedAmounts passed_;  ///< through each wall
   Vector matrix_conductance_;
 };
 
