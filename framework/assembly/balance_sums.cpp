@@ -18,7 +18,6 @@ double largest_weight(const Assembly::Block& block) {
 /// Calls use(row, column, value) for the entries of a block in rows that are owned.
 template <class Use>
 void for_entries(const Assembly::Block& block, const SparseMatrix& entries, const std::vector<char>& owned,
-
                  const Use& use) {
   SPREKK_EXPECT(static_cast<Eigen::Index>(owned.size()) == entries.rows(), owned.size(), entries.rows());
   for (int row = 0; row < entries.outerSize(); ++row) {
@@ -28,10 +27,6 @@ void for_entries(const Assembly::Block& block, const SparseMatrix& entries, cons
       use(row, static_cast<int>(entry.col()), scale * entry.value());
   }
 }
-
-}  // namespace
-
-namespace {
 
 /// Whether an unknown is a balance of the same quantity as those that are summed.
 bool is_beside(const Assembly& assembly, const Balances::Quantity& summed, int unknown) {
@@ -108,7 +103,6 @@ bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool al
 }
 
 SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
-
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
   SPREKK_EXPECT(owned.size() == assembly.unknowns().size(), owned.size());
   SPREKK_EXPECT(first.size() == assembly.unknowns().size(), first.size());
@@ -121,7 +115,6 @@ SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
         values.push_back(value);
       });
   columns = parallel::gather(columns);
-
   values = parallel::gather(values);
   SPREKK_ASSERT(columns.size() == values.size(), columns.size(), values.size());
   struct Total {
