@@ -127,9 +127,6 @@ class RockInSpace(SceneRuns):
         said = self.refusal(scene(BOX, None, roller), "mesh={size: 0.5 m}")
         self.assertIn("nothing holds the rock along y", said)
         self.assertIn("'front: {displacement_y: 0 m}'", said)
-        self.assertIn("for scenes in a plane so far",
-                      self.refusal(scene({**BOX, "fractures": {"disc": {"center": ["0.5 m", "0.5 m", "0.5 m"], "strike": "0 deg", "dip": "0 deg", "radius": "0.2 m"}}},
-                                         None, boundary), "mesh={size: 0.3 m}"))
 
     @on_two_processes
     def test_two_processes_have_the_answer_of_one(self):

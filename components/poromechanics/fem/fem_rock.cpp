@@ -31,10 +31,6 @@ std::vector<char> owned_values(const Mesh& mesh, Location location, int entities
 FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
     : LoadedRock(context, options, Location::node),
       order_(options.order == "first" ? ElementOrder::first : ElementOrder::second) {
-  if (dimension == 3 && mesh_.fracture_cell_count() > 0)
-    throw InputError(context.origin, "'" + context.name + "' has fractures, and is in space",
-                     "contact of their walls and what fluid does to them are for scenes in a plane so far",
-                     "leave out the fractures, or the rock");
   if (order_ == ElementOrder::second) edges_ = find_edges(mesh_);
   held_ = held_directions(options_, mesh_, edges_);
   if (edges_.count() > 0)

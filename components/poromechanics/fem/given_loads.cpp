@@ -96,15 +96,20 @@ GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const
     return by.share * value_in_step(data, {x, mesh.cell_region[mesh.face_cells[by.face][0]], 0}, step);
   };
   // Where a fracture ends the datum may jump: its value on this side continues those along the face (by a parabola).
-  const auto at_node = [&](const HeldBy& by, int node) {
-    const Point &x = mesh.nodes[node], arm = mesh.face_center[by.face] - x;
-    if (!has_wall(mesh, node)) return displacement(by, x);
+  const auto beside_wall = [&](const HeldBy& by, const Point& x) {
+    const Point arm = mesh.face_center[by.face] - x;
     return 3 * (displacement(by, x + arm / 2) - displacement(by, x + arm)) + displacement(by, x + 3 * arm / 2);
+  };
+  const auto at_node = [&](const HeldBy& by, int node) {
+    return has_wall(mesh, node) ? beside_wall(by, mesh.nodes[node]) : displacement(by, mesh.nodes[node]);
   };
   // How much more the middle of an edge is displaced than the mean of its ends.
   const auto of_edge = [&](const HeldBy& by, int edge) {
     const auto& [from, to] = raw.edges->nodes[edge];
-    return displacement(by, (mesh.nodes[from] + mesh.nodes[to]) / 2) - (at_node(by, from) + at_node(by, to)) / 2;
+    const Point middle = (mesh.nodes[from] + mesh.nodes[to]) / 2;
+    const bool is_on_wall = has_wall(mesh, from) && has_wall(mesh, to);
+    return (is_on_wall ? beside_wall(by, middle) : displacement(by, middle)) -
+           (at_node(by, from) + at_node(by, to)) / 2;
   };
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (const SideCondition* condition = condition_of(options, mesh, f)) add_tractions(*condition, f, raw, step, loads);

@@ -79,7 +79,11 @@ std::vector<int> edges_of_face(const RawDisplacement& raw, int face) {
   return edges;
 }
 
-double edge_in_middle(const Mesh& mesh, int face) { return mesh.face_nodes[face].size() == 3 ? 4.0 / 9 : 1.0 / 2; }
+double edge_in_middle(const Mesh& mesh, int face) {
+  const int corners = mesh.face_nodes[face].size();
+  const double share = 1.0 / corners;  // of each corner in the middle
+  return corners == 3 ? 4 * share * share : 2 * share;
+}
 
 Point displacement_of_middle(const RawDisplacement& raw, const std::vector<int>& /*tips*/, const Vector& coefficients,
                              int face) {
