@@ -41,10 +41,11 @@ struct WallTractionOptions {
 };
 
 Tensor tensor_of(const SymmetricTensor& components) {
-  Tensor tensor = components.head<dimension>().asDiagonal();
-  int next = dimension;
-  for (int i = 0; i < dimension; ++i)
-    for (int j = i + 1; j < dimension; ++j) tensor(i, j) = tensor(j, i) = components[next++];
+  Tensor tensor;
+  for (int k = 0; k < symmetric_components; ++k) {
+    const auto [i, j] = symmetric_axes[k];
+    tensor(i, j) = tensor(j, i) = components[k];
+  }
   return tensor;
 }
 
@@ -141,6 +142,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
   /// there (Spence and Sharp, Proc. R. Soc. A 400 (1985) 289), so that the cell at a tip has the less, the smaller it
   /// is.
   void note_step(Notes& notes, const StepTime&) const override {
+    if (contacts_.empty()) note_overlaps(notes);
     if (!fluid_) return;
     Vector pressure = fluid_->pressure().now();
     for (const Ridge& point : mesh_.ridges)
@@ -182,8 +184,9 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     }
   }
 
-  /// With several contacts, those of all fractures together.
+  /// With several contacts, those of all fractures together; without any, the jump that the walls have.
   void output(std::vector<OutputField>& fields) const override {
+    if (contacts_.empty()) fields.push_back({name() + ".jump", "m", Location::fracture_cell, dimension, free_jump()});
     if (!contacts_.are_several()) return;
     fields.push_back({name() + ".jump", "m", Location::fracture_cell, dimension, contacts_.jump()});
     fields.push_back({name() + ".contact_traction", "Pa", Location::fracture_cell, dimension, contacts_.traction()});
@@ -197,6 +200,29 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
       if (contact.is_on_fracture_cell(i)) flags.segment<dimension>(dimension * i).setOnes();
     return flags;
+  }
+
+  /// The jump of walls that no contact holds apart, m, on every process; zero before the first step.
+  Vector free_jump() const {
+    if (rock_.displacement_jump().terms.empty()) return Vector::Zero(rock_.wall_traction().size());
+    Vector jump = rock_.displacement_jump().now();
+    exchange(mesh_, Location::fracture_cell, dimension, jump);
+    return jump;
+  }
+
+  void note_overlaps(Notes& notes) const {
+    const Vector jump = free_jump();
+    int deepest = 0;
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
+      if (jump[dimension * i] < jump[dimension * deepest]) deepest = i;
+    constexpr double rounding = 1e-6;  // of the largest jump
+    if (jump.size() == 0 || jump[dimension * deepest] >= -rounding * jump.lpNorm<Eigen::Infinity>()) return;
+    notes.add("overlapping walls of " + rock_.wall_traction().spec().owner,
+              fmt::format("walls of fractures overlap by {:.3g} m at {} (no contact keeps them apart) {}",
+                          -jump[dimension * deepest], to_text(mesh_.fracture_cells[deepest].center),
+                          dimension == 2 ? "add a contact to the scene and to the coupler"
+                                         : "raise the pressure in fractures: contact is for scenes in a plane so far"),
+              -jump[dimension * deepest]);
   }
 
   /// Rock between fractures that is held by nothing but tractions on its walls, which are zero at the start.

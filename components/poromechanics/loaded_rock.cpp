@@ -31,7 +31,8 @@ void LoadedRock::add_wall_traction(FieldStore& fields) {
                                        .components = dimension,
                                        .role = Role::input(BlockKind::interface),
                                        .unit = "Pa",
-                                       .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)"});
+                                       .doc = "Traction on the plus wall, normal and tangential (the paper's Eq. 4)",
+                                       .needs_coupler = dimension == 2 ? "" : "wall_traction"});
 }
 
 void LoadedRock::accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) {

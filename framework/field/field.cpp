@@ -33,8 +33,9 @@ Field::Field(FieldSpec spec, int entities)
   if (spec_.is_amount && (spec_.location == Location::node || spec_.location == Location::face))
     throw std::logic_error("field " + name() + ": amounts are on cells, fracture cells or walls");
   if (spec_.role.is_derived() || !is_bulk(spec_.role.kind())) return;
-  if (spec_.location != Location::cell && spec_.location != Location::face && spec_.location != Location::node)
-    throw std::logic_error("field " + name() + ": a block of the bulk is on its cells, faces or nodes");
+  if (spec_.location != Location::cell && spec_.location != Location::face && spec_.location != Location::node &&
+      spec_.location != Location::listed)
+    throw std::logic_error("field " + name() + ": a block of the bulk is on its cells, faces or nodes, or listed");
   const int components = spec_.role.kind() == BlockKind::bulk_elastic ? dimension : 1;
   if (spec_.components != components)
     throw std::logic_error("field " + name() + ": a block of this kind has " + std::to_string(components) +

@@ -11,7 +11,7 @@ set(compiled_alone "^framework/(acceleration|frame_output)$")
 set(without_dimension "^framework/(module|parallel|picture|dense|linear)$")
 set(in_a_plane_alone "^(framework/(remeshing|triangulation)|components/(contact|fine_fracture)|\
 components/(matrix_flow/ntpfa|poromechanics/mpsa|poromechanics/(rock|rock_loads|rock_operators|rock_stress|stress_operators)|wells)|\
-couplers/(aperture|two_level|wall_traction|well_exchange))(/|[.]cpp$|$)")
+couplers/(aperture|two_level|well_exchange))(/|[.]cpp$|$)")
 
 # sprekk_sources(result folder dimension): the sources below `folder`, without those of modules and of the other dimension.
 function(sprekk_sources result folder dimension)

@@ -15,7 +15,8 @@ struct FaceFunction {
   Point flow;       ///< its integral times the normal of the face, m (m^2 in space)
 };
 
-/// The functions of the nodes of a face, in their order, and that of the face. `tips`: see tips_of_faces; may be empty.
+/// The functions of the nodes of a face, in their order, those of the edges from each node to the next, if there are
+/// some, and that of the face. `tips`: see tips_of_faces; may be empty.
 std::vector<FaceFunction> face_functions(const RawDisplacement& raw, const std::vector<int>& tips, int face);
 
 /// A point of integrals over a face.
@@ -25,10 +26,15 @@ struct FacePoint {
   Point normal;               ///< unit, out of face_cells[f][0], at this point
   std::vector<double> value;  ///< of each of face_functions, where middle nodes are in the middle
 };
-std::vector<FacePoint> face_points(const Mesh& mesh, int face);
+std::vector<FacePoint> face_points(const RawDisplacement& raw, int face);
 
 /// Where the function of a face is 1, m.
 Point middle_of_face(const Mesh& mesh, int face);
+
+/// The edges of a face, from each of its nodes to the next; empty where there are no functions of edges.
+std::vector<int> edges_of_face(const RawDisplacement& raw, int face);
+/// The function of each of them in the middle of the face.
+double edge_in_middle(const Mesh& mesh, int face);
 
 /// The displacement there, m. `coefficients`: all (RawDisplacement).
 Point displacement_of_middle(const RawDisplacement& raw, const std::vector<int>& tips, const Vector& coefficients,

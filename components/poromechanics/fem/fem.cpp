@@ -11,11 +11,12 @@ Spec FemOptions::spec() {
                        "strain: finite elements of first or second order, with two nodes where fractures "
                        "part them."
                      : "Quasi-static deformation of the rock (the paper's Eqs. 5, 7), linear elastic: finite "
-                       "elements of first order.");
-  std::vector<std::pair<std::string, std::string>> orders{
-      {"first", "displacements are linear in cells; stabilized for fluid that cannot flow and walls in contact"}};
-  if (dimension == 2) orders.push_back({"second", "displacements are of second order"});
-  spec.choice("order", order, orders, {.doc = "Order of the displacement."});
+                       "elements of first or second order.");
+  spec.choice(
+      "order", order,
+      {{"first", "displacements are linear in cells; stabilized for fluid that cannot flow and walls in contact"},
+       {"second", "displacements are of second order"}},
+      {.doc = "Order of the displacement."});
   return spec;
 }
 

@@ -32,7 +32,7 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
   std::vector<Triplet> entries;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const bool is_second = order == ElementOrder::second || is_at_tip(mesh, tips, c);
-    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c, tips), stiffness[c],
+    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c, tips, raw.edge_count() > 0), stiffness[c],
                                            is_second ? ElementOrder::second : ElementOrder::first);
     const std::vector<int> first = raw.of_cell(c);
     const int count = static_cast<int>(first.size()), faces = mesh.cell_faces[c].size();
@@ -142,9 +142,8 @@ struct Rows {
 Rows rows_of(const RawDisplacement& raw, const SparseMatrix& linear, const SparseMatrix& stiffness, const Held& held) {
   const int unknowns = static_cast<int>(linear.cols());
   std::vector<Triplet> kept, of_held, given;
-  const int nodes = raw.mesh.node_count();
   for (int entity = 0; entity < unknowns / dimension; ++entity) {
-    const HeldDirections& directions = entity < nodes ? held.nodes[entity] : held.faces[entity - nodes];
+    const HeldDirections& directions = held.of_entity(entity);
     const int at = dimension * entity;
     double scale = 0;
     for (int k = 0; k < dimension; ++k) scale = std::max(scale, stiffness.coeff(at + k, at + k));
@@ -215,12 +214,12 @@ void add_volumetric_stress(const Mesh& mesh, const Vector& taken, FemOperators& 
 
 }  // namespace
 
-FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const Held& held,
+FemOperators fem_operators(const RawDisplacement& raw, const std::vector<Stiffness>& stiffness, const Held& held,
                            ElementOrder order, bool has_volumetric_stress) {
+  const Mesh& mesh = raw.mesh;
   SPREKK_EXPECT(static_cast<int>(stiffness.size()) == mesh.cell_count(), stiffness.size(), mesh.cell_count());
   SPREKK_EXPECT(order == ElementOrder::first || !has_volumetric_stress);
   const VolumetricSplit split = has_volumetric_stress ? split_volumetric(stiffness) : VolumetricSplit{stiffness, {}};
-  const RawDisplacement raw{mesh};
   FemOperators result;
   result.tips = tips_of_faces(mesh);
   const SparseMatrix linear = linear_functions(raw, result.tips, order);

@@ -12,7 +12,8 @@
 namespace sprekk::poromechanics {
 
 /// A quantity as a linear function of
-/// - u, the unknowns: displacements of every node, m; at second order then of every face, m; at first order, with a
+/// - u, the unknowns: displacements of every node, m; at second order then of every edge, in space, and of every face,
+/// m; at first order, with a
 ///   volumetric stress, then that of every cell, Pa;
 /// - s, the isotropic stress of every cell, Pa (sigma = C : grad u − s I);
 /// - T, the traction on the plus wall of every fracture cell, Pa, (normal, tangential); opposite on the minus wall;
@@ -35,15 +36,15 @@ struct FemOperators {
   std::vector<int> tips;                          ///< see tips_of_faces
 };
 
-/// Assembles the stiffness of a mesh. At second order every coefficient is an unknown. At first order those of faces
-/// are functions of the others, which stabilizes cellwise s and T: the residual forces on the function of a face, those
-/// of s, T and F among them, displace it as if it stood alone (FacesTogether). Its stiffness is made larger until it is
-/// at least that of all functions of faces of a cell together, so that what is left for the nodes is positive definite
-/// (Rodrigo, Hu, Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized discretizations for poroelasticity and the
-/// Stokes' equations, with the whole vector in place of its normal component). In cells that are no triangles or
-/// tetrahedra it is twice as stiff: else the functions of faces could take all of the stiffness of a cell that bends,
-/// and with twice it they leave half of it. Nothing is displaced where displacements are linear and tractions agree,
-/// and what leaves one cell through a face enters the other.
+/// Assembles the stiffness of a mesh. At second order every coefficient is an unknown, and `raw` has edges in space. At
+/// first order those of faces are functions of the others, which stabilizes cellwise s and T: the residual forces on
+/// the function of a face, those of s, T and F among them, displace it as if it stood alone (FacesTogether). Its
+/// stiffness is made larger until it is at least that of all functions of faces of a cell together, so that what is
+/// left for the nodes is positive definite (Rodrigo, Hu, Ohm, Adler, Gaspar and Zikatanov 2018, New stabilized
+/// discretizations for poroelasticity and the Stokes' equations, with the whole vector in place of its normal
+/// component). In cells that are no triangles or tetrahedra it is twice as stiff: else the functions of faces could
+/// take all of the stiffness of a cell that bends, and with twice it they leave half of it. Nothing is displaced where
+/// displacements are linear and tractions agree, and what leaves one cell through a face enters the other.
 ///
 /// Cells at tips are those of second order at either order, with their field of a tip (tips_of_faces). At first order
 /// the functions of all their faces are displaced together, as elimination would do it, so that the nodes remain the
@@ -51,7 +52,7 @@ struct FemOperators {
 ///
 /// `has_volumetric_stress`, at first order: the stress with which nearly incompressible cells resist a change of volume
 /// (see VolumetricSplit) is an unknown of its own, which acts as s does.
-FemOperators fem_operators(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const Held& held,
+FemOperators fem_operators(const RawDisplacement& raw, const std::vector<Stiffness>& stiffness, const Held& held,
                            ElementOrder order, bool has_volumetric_stress = false);
 
 }  // namespace sprekk::poromechanics

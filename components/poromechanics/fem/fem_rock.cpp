@@ -20,10 +20,9 @@ namespace sprekk::poromechanics {
 namespace {
 
 /// One flag for each value at a location: whether this process owns it.
-std::vector<char> owned_values(const Mesh& mesh, Location location, int components) {
+std::vector<char> owned_values(const Mesh& mesh, Location location, int entities, int components) {
   std::vector<char> owned;
-  for (int i = 0; i < entity_count(mesh, location); ++i)
-    owned.insert(owned.end(), components, is_owned(mesh, location, i));
+  for (int i = 0; i < entities; ++i) owned.insert(owned.end(), components, is_owned(mesh, location, i));
   return owned;
 }
 
@@ -32,11 +31,17 @@ std::vector<char> owned_values(const Mesh& mesh, Location location, int componen
 FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
     : LoadedRock(context, options, Location::node),
       order_(options.order == "first" ? ElementOrder::first : ElementOrder::second) {
-  if (dimension == 3 && mesh_.fracture_cell_count() > 0)
-    throw InputError(context.origin, "'" + context.name + "' has fractures, and is in space",
-                     "contact of their walls and what fluid does to them are for scenes in a plane so far",
-                     "leave out the fractures, or the rock");
-  held_ = held_directions(options_, mesh_);
+  if (order_ == ElementOrder::second) edges_ = find_edges(mesh_);
+  held_ = held_directions(options_, mesh_, edges_);
+  if (edges_.count() > 0)
+    of_edges_ = &context.fields.add(mesh_, {.owner = context.name,
+                                            .name = "displacement_of_edges",
+                                            .location = Location::listed,
+                                            .components = dimension,
+                                            .listed = edges_.count(),
+                                            .role = Role::unknown(BlockKind::bulk_elastic),
+                                            .unit = "m",
+                                            .doc = "Displacement of middles of edges less the mean of their ends"});
   if (order_ == ElementOrder::second)
     of_faces_ = &context.fields.add(mesh_, {.owner = context.name,
                                             .name = "displacement_of_faces",
@@ -66,6 +71,7 @@ NeedsDirectSolver::Need FemRock::needs_direct_solver() const {
 
 std::vector<Field*> FemRock::unknowns() const {
   std::vector<Field*> fields{&displacement_};
+  if (of_edges_) fields.push_back(of_edges_);
   if (of_faces_) fields.push_back(of_faces_);
   if (volumetric_) fields.push_back(volumetric_);
   return fields;
@@ -76,28 +82,31 @@ void FemRock::discretize() {
   discretized_mesh_ = mesh_.version;
   discretized_stiffness_ = stiffness_.version();
   ++discretizations_;
-  operators_ = fem_operators(mesh_, stiffness_.of_cells(), held_, order_, volumetric_ != nullptr);
+  operators_ = fem_operators(raw(), stiffness_.of_cells(), held_, order_, volumetric_ != nullptr);
   used_alpha_ = 0;
   momentum_.clear();
   int first = 0;
   for (const Field* field : unknowns()) {
     const LinearInFem& whole = operators_.momentum;
     const auto rows = [&](const SparseMatrix& matrix) { return SparseMatrix(matrix.middleRows(first, field->size())); };
-    momentum_.push_back(quantity_of(LinearInFem{rows(whole.of_displacement), rows(whole.of_stress),
-                                                rows(whole.of_traction), rows(whole.of_force), rows(whole.of_given)},
-                                    owned_values(mesh_, field->spec().location, field->spec().components)));
+    momentum_.push_back(
+        quantity_of(LinearInFem{rows(whole.of_displacement), rows(whole.of_stress), rows(whole.of_traction),
+                                rows(whole.of_force), rows(whole.of_given)},
+                    owned_values(mesh_, field->spec().location, field->entities(), field->spec().components)));
     first += field->size();
   }
-  std::vector<char> cells = owned_values(mesh_, Location::cell, 1);
+  std::vector<char> cells = owned_values(mesh_, Location::cell, mesh_.cell_count(), 1);
   for (int c = 0; c < mesh_.cell_count(); ++c) cells[c] = cells[c] && !stiffness_.excavation().is_removed(c);
   volume_ = quantity_of(operators_.volume, cells);
-  if (wall_traction_) jump_ = quantity_of(operators_.jump, owned_values(mesh_, Location::fracture_cell, dimension));
+  if (wall_traction_)
+    jump_ = quantity_of(operators_.jump,
+                        owned_values(mesh_, Location::fracture_cell, mesh_.fracture_cell_count(), dimension));
 }
 
 void FemRock::evaluate_data(const StepTime& step) {
   if (!evaluate(step)) return;
   discretize();  // the body force acts on interior functions, too
-  given_ = given_loads(options_, mesh_, held_, operators_, stiffness_.excavation(),
+  given_ = given_loads(options_, raw(), held_, operators_, stiffness_.excavation(),
                        settled_ ? &settled_->forces : nullptr, step);
   if (settled_) given_.displacements -= settled_->displacements;
 }
@@ -165,7 +174,7 @@ void FemRock::require_countable() const {
 }
 
 void FemRock::count_from_equilibrium() {
-  keep_settled(settled_forces(options_, mesh_, stiffness_.of_cells(), operators_, coefficients(), pore_stress()),
+  keep_settled(settled_forces(options_, raw(), stiffness_.of_cells(), operators_, coefficients(), pore_stress()),
                given_.displacements);
   for (Field* field : unknowns()) field->set_both(Vector::Zero(field->size()));
 }
@@ -208,8 +217,7 @@ Vector FemRock::mean_stress() const {
   const Vector all = coefficients();
   Vector stress(symmetric_components * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    SymmetricTensor of_cell =
-        stiffness_.of_cells()[c] * strain_of(mean_gradient(RawDisplacement{mesh_}, operators_.tips, all, c));
+    SymmetricTensor of_cell = stiffness_.of_cells()[c] * strain_of(mean_gradient(raw(), operators_.tips, all, c));
     for (const PoreLoad& load : loads_) {
       const double pore = load.alpha[c] * (load.pressure->now()[c] - load.reference[c]);
       of_cell -= pore * isotropic_components();
@@ -231,11 +239,10 @@ std::string FemRock::flaw_of_jumps() const {
 }
 
 Vector FemRock::outer_displacement() const {
-  const RawDisplacement raw{mesh_};
   const Vector all = coefficients();
-  Vector outer(raw.size() - raw.nodes_size());
+  Vector outer(dimension * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
-    outer.segment<dimension>(dimension * f) = displacement_of_middle(raw, operators_.tips, all, f);
+    outer.segment<dimension>(dimension * f) = displacement_of_middle(raw(), operators_.tips, all, f);
   }
   return outer;
 }
@@ -244,7 +251,7 @@ void FemRock::note_step(Notes& notes, const StepTime&) const {
   const Vector all = coefficients();
   LargestStrain largest;
   for (int c = 0; c < mesh_.cell_count(); ++c)
-    if (const double strain = mean_gradient(RawDisplacement{mesh_}, operators_.tips, all, c).norm();
+    if (const double strain = mean_gradient(raw(), operators_.tips, all, c).norm();
         strain > largest.strain && !stiffness_.excavation().is_removed(c))
       largest = {strain, mesh_.cell_center[c]};
   note_large_strain(notes, name(), largest, options_, stiffness_.of_cells());

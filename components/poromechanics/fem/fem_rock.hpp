@@ -16,8 +16,8 @@ struct FemOptions : Options {
   Spec spec();
 };
 
-/// Unknown: the displacement of every node and, at second order, how much more the middle of every face is displaced
-/// than the mean of its ends (CellPoint); p is one value a cell. In space there is first order alone so far. Each row
+/// Unknown: the displacement of every node and, at second order, how much more the middle of every face, and in space
+/// of every edge, is displaced than by the functions of lower order (CellPoint); p is one value a cell. Each row
 /// balances the work of the stresses in the displacement of one function with that of the loads (N/m), or holds a
 /// prescribed displacement. At first order, where rock is nearly incompressible, part of the stress against a change of
 /// volume is an unknown of every cell.
@@ -52,6 +52,7 @@ class FemRock : public LoadedRock, public NeedsDirectSolver {
     LinearInFem operators;
     LinearExpression value;
   };
+  RawDisplacement raw() const { return {mesh_, &edges_}; }
   /// The unknown fields, in the order of their rows in FemOperators.
   std::vector<Field*> unknowns() const;
   void discretize();
@@ -64,6 +65,8 @@ class FemRock : public LoadedRock, public NeedsDirectSolver {
   std::vector<Quantity*> quantities();
 
   ElementOrder order_;
+  CellEdges edges_;              ///< at second order in space
+  Field* of_edges_ = nullptr;    ///< the same
   Field* of_faces_ = nullptr;    ///< at second order
   Field* volumetric_ = nullptr;  ///< at first order, in nearly incompressible rock: see VolumetricSplit
   Held held_;

@@ -29,7 +29,7 @@ void add_forces_in_cells(const Options& options, const RawDisplacement& raw, con
     const int functions = static_cast<int>(first.size());
     const double support = excavation.support(c);
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dimension * (functions + 1));
-    for (const CellPoint& point : cell_points(mesh, c, operators.tips)) {
+    for (const CellPoint& point : cell_points(mesh, c, operators.tips, raw.edge_count() > 0)) {
       const Place place{point.x, mesh.cell_region[c], 0};
       const Point weight = support * options.body_force_in(step, place);
       if (!weight.isZero(0)) loads.largest_stress = std::numeric_limits<double>::infinity();
@@ -53,7 +53,7 @@ void add_tractions(const SideCondition& condition, int face, const RawDisplaceme
   const Mesh& mesh = raw.mesh;
   const int region = mesh.cell_region[mesh.face_cells[face][0]];
   const std::vector<FaceFunction> functions = face_functions(raw, {}, face);
-  for (const FacePoint& point : face_points(mesh, face)) {
+  for (const FacePoint& point : face_points(raw, face)) {
     const Point force = point.weight * condition.traction_in(step, {point.x, region, 0}, point.normal);
     for (std::size_t k = 0; k < functions.size(); ++k)
       loads.forces.segment<dimension>(functions[k].coefficient) += point.value[k] * force;
@@ -85,9 +85,10 @@ void find_largest_stress(const Options& options, const Mesh& mesh, const StepTim
 
 }  // namespace
 
-GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held, const FemOperators& operators,
-                       const Excavation& excavation, const Vector* settled, const StepTime& step) {
-  const RawDisplacement raw{mesh};
+GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const Held& held,
+                       const FemOperators& operators, const Excavation& excavation, const Vector* settled,
+                       const StepTime& step) {
+  const Mesh& mesh = raw.mesh;
   GivenLoads loads{Vector::Zero(raw.size()), Vector::Zero(raw.size()), 0};
   add_forces_in_cells(options, raw, operators, excavation, settled, step, loads);
   const auto displacement = [&](const HeldBy& by, const Point& x) {
@@ -95,10 +96,20 @@ GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& hel
     return by.share * value_in_step(data, {x, mesh.cell_region[mesh.face_cells[by.face][0]], 0}, step);
   };
   // Where a fracture ends the datum may jump: its value on this side continues those along the face (by a parabola).
-  const auto at_node = [&](const HeldBy& by, int node) {
-    const Point &x = mesh.nodes[node], arm = mesh.face_center[by.face] - x;
-    if (!has_wall(mesh, node)) return displacement(by, x);
+  const auto beside_wall = [&](const HeldBy& by, const Point& x) {
+    const Point arm = mesh.face_center[by.face] - x;
     return 3 * (displacement(by, x + arm / 2) - displacement(by, x + arm)) + displacement(by, x + 3 * arm / 2);
+  };
+  const auto at_node = [&](const HeldBy& by, int node) {
+    return has_wall(mesh, node) ? beside_wall(by, mesh.nodes[node]) : displacement(by, mesh.nodes[node]);
+  };
+  // How much more the middle of an edge is displaced than the mean of its ends.
+  const auto of_edge = [&](const HeldBy& by, int edge) {
+    const auto& [from, to] = raw.edges->nodes[edge];
+    const Point middle = (mesh.nodes[from] + mesh.nodes[to]) / 2;
+    const bool is_on_wall = has_wall(mesh, from) && has_wall(mesh, to);
+    return (is_on_wall ? beside_wall(by, middle) : displacement(by, middle)) -
+           (at_node(by, from) + at_node(by, to)) / 2;
   };
   for (int f = 0; f < mesh.face_count(); ++f) {
     if (const SideCondition* condition = condition_of(options, mesh, f)) add_tractions(*condition, f, raw, step, loads);
@@ -106,25 +117,29 @@ GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& hel
       for (const HeldBy& by : held.faces[f].by[k]) {
         double of_nodes = 0;
         for (const int node : mesh.face_nodes[f]) of_nodes += at_node(by, node);
-        const double mean = of_nodes / static_cast<double>(mesh.face_nodes[f].size());
-        loads.displacements[raw.of_face(f) + k] += displacement(by, middle_of_face(mesh, f)) - mean;
+        double before = of_nodes / static_cast<double>(mesh.face_nodes[f].size());
+        for (const int edge : edges_of_face(raw, f)) before += edge_in_middle(mesh, f) * of_edge(by, edge);
+        loads.displacements[raw.of_face(f) + k] += displacement(by, middle_of_face(mesh, f)) - before;
       }
   }
   for (int node = 0; node < mesh.node_count(); ++node)
     for (int k = 0; k < dimension; ++k)
       for (const HeldBy& by : held.nodes[node].by[k]) loads.displacements[raw.of_node(node) + k] += at_node(by, node);
+  for (int edge = 0; edge < raw.edge_count(); ++edge)
+    for (int k = 0; k < dimension; ++k)
+      for (const HeldBy& by : held.edges[edge].by[k]) loads.displacements[raw.of_edge(edge) + k] += of_edge(by, edge);
   find_largest_stress(options, mesh, step, loads);
   return loads;
 }
 
-Vector settled_forces(const Options& options, const Mesh& mesh, const std::vector<Stiffness>& stiffness,
+Vector settled_forces(const Options& options, const RawDisplacement& raw, const std::vector<Stiffness>& stiffness,
                       const FemOperators& operators, const Vector& coefficients, const Vector& pore_stress) {
-  const RawDisplacement raw{mesh};
+  const Mesh& mesh = raw.mesh;
   std::vector<double> all;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const std::vector<int> first = raw.of_cell(c);
     const int functions = static_cast<int>(first.size());
-    const std::vector<CellPoint> points = cell_points(mesh, c, operators.tips);
+    const std::vector<CellPoint> points = cell_points(mesh, c, operators.tips, raw.edge_count() > 0);
     Eigen::VectorXd displacement(dimension * functions);
     for (int i = 0; i < functions; ++i)
       displacement.segment<dimension>(dimension * i) = coefficients.segment<dimension>(first[i]);

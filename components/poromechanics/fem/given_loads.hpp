@@ -13,7 +13,7 @@ namespace sprekk::poromechanics {
 struct GivenLoads {
   /// The work of tractions on sides, of the weight and of the body force, less that of the initial stress, N/m.
   Vector forces;
-  /// Along held axes (HeldDirections), m; 0 elsewhere. Of a face it is the coefficient of its function.
+  /// Along held axes (HeldDirections), m; 0 elsewhere. Of an edge and a face it is the coefficient of its function.
   Vector displacements;
   /// See PoroelasticRock::largest_load, Pa.
   double largest_stress = 0;
@@ -21,13 +21,14 @@ struct GivenLoads {
 
 /// `settled`: the forces of the stress of every cell in a state that was settled (settled_forces), which replaces the
 /// initial stress; or nullptr. Throws DataError.
-GivenLoads given_loads(const Options& options, const Mesh& mesh, const Held& held, const FemOperators& operators,
-                       const Excavation& excavation, const Vector* settled, const StepTime& step);
+GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const Held& held,
+                       const FemOperators& operators, const Excavation& excavation, const Vector* settled,
+                       const StepTime& step);
 
 /// The forces of the total stress of every cell on the functions of its corners and faces (RawDisplacement::of_cell),
 /// cell after cell, N/m. `coefficients`: all of them, m; `pore_stress`: what pore pressures add to xx and yy of each
 /// cell, Pa. For the second order.
-Vector settled_forces(const Options& options, const Mesh& mesh, const std::vector<Stiffness>& stiffness,
+Vector settled_forces(const Options& options, const RawDisplacement& raw, const std::vector<Stiffness>& stiffness,
                       const FemOperators& operators, const Vector& coefficients, const Vector& pore_stress);
 
 }  // namespace sprekk::poromechanics

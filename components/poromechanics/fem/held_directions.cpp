@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "components/poromechanics/check_conditions.hpp"
+#include "components/poromechanics/fem/face_functions.hpp"
 #include "framework/linear/rigid_rotations.hpp"
 
 namespace sprekk::poromechanics {
@@ -107,8 +108,18 @@ HeldDirections combined(const std::vector<Direction>& all) {
 
 }  // namespace
 
-Held held_directions(const Options& options, const Mesh& mesh) {
-  std::vector<std::vector<Direction>> at_nodes(mesh.node_count());
+const HeldDirections& Held::of_entity(int entity) const {
+  for (const std::vector<HeldDirections>* each : {&nodes, &edges}) {
+    const int count = static_cast<int>(each->size());
+    if (entity < count) return (*each)[entity];
+    entity -= count;
+  }
+  return faces[entity];
+}
+
+Held held_directions(const Options& options, const Mesh& mesh, const CellEdges& edges) {
+  const RawDisplacement raw{mesh, &edges};
+  std::vector<std::vector<Direction>> at_nodes(mesh.node_count()), at_edges(edges.count());
   Held held;
   held.faces.resize(mesh.face_count());
   for (int f = 0; f < mesh.face_count(); ++f) {
@@ -122,10 +133,13 @@ Held held_directions(const Options& options, const Mesh& mesh) {
       const double length = mesh.face_measure[f];
       for (const int node : mesh.face_nodes[f])
         add(at_nodes[node], mesh.face_side[f], k, length * axes.col(k), {f, k, length});
+      for (const int edge : edges_of_face(raw, f))
+        add(at_edges[edge], mesh.face_side[f], k, length * axes.col(k), {f, k, length});
     }
     held.faces[f] = combined(at_face);
   }
   for (const auto& directions : at_nodes) held.nodes.push_back(combined(directions));
+  for (const auto& directions : at_edges) held.edges.push_back(combined(directions));
   return held;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "components/poromechanics/fem/raw_displacement.hpp"
 #include "components/poromechanics/options.hpp"
 #include "framework/mesh/mesh.hpp"
 
@@ -26,12 +27,15 @@ struct HeldDirections {
   bool is_free() const { return std::ranges::none_of(is_held, std::identity{}); }
 };
 
-/// Of each node and of each face. A node on two faces of one side, which may be curved, is held along the mean of their
-/// directions, weighted by length or area: else it would stick (consistent normals, Engelman, Sani and Gresho 1982). At
-/// corners of different directions both hold.
+/// Of each node, edge and face. A node, or an edge, on two faces of one side, which may be curved, is held along the
+/// mean of their directions, weighted by length or area: else it would stick (consistent normals, Engelman, Sani and
+/// Gresho 1982). At corners of different directions both hold.
 struct Held {
-  std::vector<HeldDirections> nodes, faces;
+  std::vector<HeldDirections> nodes, edges, faces;
+  /// In the numbering of RawDisplacement.
+  const HeldDirections& of_entity(int entity) const;
 };
-Held held_directions(const Options& options, const Mesh& mesh);
+/// `edges`: those with functions.
+Held held_directions(const Options& options, const Mesh& mesh, const CellEdges& edges = {});
 
 }  // namespace sprekk::poromechanics

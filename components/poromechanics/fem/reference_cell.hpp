@@ -27,7 +27,7 @@ struct ReferencePoint {
 };
 
 /// The points of the reference cell with so many corners. `start`: in a plane, the corner of a triangle from which the
-/// points lie along rays.
-const std::vector<ReferencePoint>& reference_points(int corners, int start);
+/// points lie along rays. `has_edges`: whether there are functions of edges.
+const std::vector<ReferencePoint>& reference_points(int corners, int start, bool has_edges);
 
 }  // namespace sprekk::poromechanics

@@ -7,7 +7,7 @@
 
 namespace sprekk::poromechanics {
 
-std::vector<CellPoint> cell_points(const Mesh& mesh, int cell, const std::vector<int>& tips) {
+std::vector<CellPoint> cell_points(const Mesh& mesh, int cell, const std::vector<int>& tips, bool has_edges) {
   SPREKK_EXPECT(is_index(cell, mesh.cell_count()), cell, mesh.cell_count());
   const CellNodes& corners = mesh.cell_nodes[cell];
   const CellFaces& faces = mesh.cell_faces[cell];
@@ -23,7 +23,7 @@ std::vector<CellPoint> cell_points(const Mesh& mesh, int cell, const std::vector
     start = is_first ? k : (k + 1) % corners.size();
   }
   std::vector<CellPoint> points;
-  for (const auto& [weight, functions] : reference_points(corners.size(), start)) {
+  for (const auto& [weight, functions] : reference_points(corners.size(), start, has_edges)) {
     const int count = static_cast<int>(functions.size());
     CellPoint point{Point::Zero(), 0, Eigen::VectorXd(count), CellPoint::Gradients(dimension, count)};
     Tensor jacobian = Tensor::Zero();  // d x / d reference

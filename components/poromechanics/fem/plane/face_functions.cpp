@@ -32,7 +32,8 @@ std::vector<FaceFunction> face_functions(const RawDisplacement& raw, const std::
   return functions;
 }
 
-std::vector<FacePoint> face_points(const Mesh& mesh, int face) {
+std::vector<FacePoint> face_points(const RawDisplacement& raw, int face) {
+  const Mesh& mesh = raw.mesh;
   const auto& [from, to] = mesh.face_nodes[face];
   std::vector<FacePoint> points;
   for (const auto& [at, weight] : gauss_points())
@@ -44,6 +45,10 @@ std::vector<FacePoint> face_points(const Mesh& mesh, int face) {
 }
 
 Point middle_of_face(const Mesh& mesh, int face) { return mesh.face_center[face]; }
+
+std::vector<int> edges_of_face(const RawDisplacement& /*raw*/, int /*face*/) { return {}; }
+
+double edge_in_middle(const Mesh& /*mesh*/, int /*face*/) { return 0; }
 
 Point displacement_of_middle(const RawDisplacement& raw, const std::vector<int>& tips, const Vector& coefficients,
                              int face) {

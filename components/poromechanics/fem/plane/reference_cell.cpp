@@ -46,7 +46,7 @@ std::vector<ReferencePoint> points_of(bool is_triangle, int start) {
 
 }  // namespace
 
-const std::vector<ReferencePoint>& reference_points(int corners, int start) {
+const std::vector<ReferencePoint>& reference_points(int corners, int start, bool /*has_edges*/) {
   SPREKK_EXPECT((corners == 3 || corners == 4) && is_index(start, corners), corners, start);
   static const std::array triangle{points_of(true, 0), points_of(true, 1), points_of(true, 2)};
   static const std::vector<ReferencePoint> square = points_of(false, 0);

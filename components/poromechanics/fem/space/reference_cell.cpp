@@ -1,10 +1,11 @@
 #include "components/poromechanics/fem/reference_cell.hpp"
 
+#include <algorithm>
 #include <array>
 
+#include "components/poromechanics/fem/cell_edges.hpp"
 #include "components/poromechanics/fem/gauss_points.hpp"
 #include "framework/invariants.hpp"
-#include "framework/mesh/shapes.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -25,22 +26,31 @@ ReferenceFunction bubble(const ReferenceFunction& a, const ReferenceFunction& b,
 }
 
 /// On the tetrahedron of the origin and the unit vectors.
-Functions tetrahedron_functions(const Point& x) {
+Functions tetrahedron_functions(const Point& x, bool has_edges) {
   Functions functions{{1 - x.sum(), -Point::Ones()}};
   for (int k = 0; k < dimension; ++k) functions.push_back({x[k], Point::Unit(k)});
+  const Functions corner = functions;
+  if (has_edges)
+    for (const auto& [from, to] : edges_of_shape(4)) functions.push_back(4 * (corner[from] * corner[to]));
   for (const FaceNodes& face : shape_with(4)->faces)
-    functions.push_back(bubble(functions[face[0]], functions[face[1]], functions[face[2]]));
-  functions.push_back(256 * (functions[0] * functions[1] * functions[2] * functions[3]));
+    functions.push_back(bubble(corner[face[0]], corner[face[1]], corner[face[2]]));
+  functions.push_back(256 * (corner[0] * corner[1] * corner[2] * corner[3]));
   return functions;
 }
 
 /// On the unit triangle times the unit interval.
-Functions wedge_functions(double xi, double eta, double zeta) {
+Functions wedge_functions(double xi, double eta, double zeta, bool has_edges) {
   const Triple corner = in_triangle(xi, eta);
   const Pair level = along(2, zeta);
   Functions functions;
   for (const ReferenceFunction& at : level)
     for (const ReferenceFunction& share : corner) functions.push_back(share * at);
+  if (has_edges)
+    for (const auto& [from, to] : edges_of_shape(6)) {
+      const bool is_upright = from % 3 == to % 3;
+      functions.push_back(is_upright ? corner[from % 3] * bump(level)
+                                     : 4 * (corner[from % 3] * corner[to % 3]) * level[from / 3]);
+    }
   const ReferenceFunction inside = bubble(corner[0], corner[1], corner[2]);
   for (const ReferenceFunction& at : level) functions.push_back(inside * at);
   for (int k = 0; k < 3; ++k) functions.push_back(4 * (corner[k] * corner[(k + 1) % 3]) * bump(level));
@@ -48,26 +58,34 @@ Functions wedge_functions(double xi, double eta, double zeta) {
   return functions;
 }
 
-/// On the unit cube.
-Functions cube_functions(double xi, double eta, double zeta) {
-  const Pair x = along(0, xi), y = along(1, eta), z = along(2, zeta);
-  const ReferenceFunction in_x = bump(x), in_y = bump(y), in_z = bump(z);
+/// On the unit cube. The corners are (0, 0), (1, 0), (1, 1), (0, 1) below, and then the same above.
+Functions cube_functions(double xi, double eta, double zeta, bool has_edges) {
+  const Pair along_axis[dimension] = {along(0, xi), along(1, eta), along(2, zeta)};
+  const auto end_of = [](int corner, int axis) {
+    const int around = corner % 4;
+    return axis == 2 ? corner / 4 : axis == 1 ? around / 2 : int(around == 1 || around == 2);
+  };
+  // What is at the same end of an axis in all corners is so there, what is at both is a bump along it.
+  const auto between = [&](const std::vector<int>& corners) {
+    ReferenceFunction product{1, Point::Zero()};
+    for (int axis = 0; axis < dimension; ++axis) {
+      const int end = end_of(corners.front(), axis);
+      const bool is_same = std::ranges::all_of(corners, [&](int corner) { return end_of(corner, axis) == end; });
+      product = product * (is_same ? along_axis[axis][end] : bump(along_axis[axis]));
+    }
+    return product;
+  };
   Functions functions;
-  for (const ReferenceFunction& level : z)
-    for (const auto& [i, j] : {std::pair{0, 0}, std::pair{1, 0}, std::pair{1, 1}, std::pair{0, 1}})
-      functions.push_back(x[i] * y[j] * level);
-  // In the order of the faces of shape_with(8): below, above, in front, to the right, behind, to the left.
-  for (const ReferenceFunction& level : z) functions.push_back(in_x * in_y * level);
-  functions.push_back(in_x * y[0] * in_z);
-  functions.push_back(x[1] * in_y * in_z);
-  functions.push_back(in_x * y[1] * in_z);
-  functions.push_back(x[0] * in_y * in_z);
-  functions.push_back(in_x * in_y * in_z);
+  for (int corner = 0; corner < 8; ++corner) functions.push_back(between({corner}));
+  if (has_edges)
+    for (const auto& [from, to] : edges_of_shape(8)) functions.push_back(between({from, to}));
+  for (const FaceNodes& face : shape_with(8)->faces) functions.push_back(between({face.begin(), face.end()}));
+  functions.push_back(between({0, 1, 2, 3, 4, 5, 6, 7}));
   return functions;
 }
 
 /// 24 points, exact for polynomials of the sixth degree (Keast 1986, Moderate-degree tetrahedral quadrature formulas).
-std::vector<ReferencePoint> tetrahedron_points() {
+std::vector<ReferencePoint> tetrahedron_points(bool has_edges) {
   struct Orbit {
     double a, b, weight;  // of the shares in the corners two or three are a, one is b, and one is the rest
   };
@@ -84,14 +102,14 @@ std::vector<ReferencePoint> tetrahedron_points() {
         std::array<double, 4> share{a, a, a, a};
         share[place] = rest;
         share[other] = b;
-        points.push_back({weight, tetrahedron_functions({share[1], share[2], share[3]})});
+        points.push_back({weight, tetrahedron_functions({share[1], share[2], share[3]}, has_edges)});
       }
   }
   return points;
 }
 
 /// Exact for polynomials of the sixth degree along the triangle, and of the fifth across it.
-std::vector<ReferencePoint> wedge_points() {
+std::vector<ReferencePoint> wedge_points(bool has_edges) {
   std::vector<ReferencePoint> points;
   for (const GaussPoint& first : four_gauss_points())
     for (const GaussPoint& second : four_gauss_points())
@@ -99,27 +117,28 @@ std::vector<ReferencePoint> wedge_points() {
         // A triangle is a square of which one side has no length.
         const double shrink = 1 - first.at;
         points.push_back({first.weight * second.weight * across.weight * shrink,
-                          wedge_functions(first.at, shrink * second.at, across.at)});
+                          wedge_functions(first.at, shrink * second.at, across.at, has_edges)});
       }
   return points;
 }
 
-std::vector<ReferencePoint> cube_points() {
+std::vector<ReferencePoint> cube_points(bool has_edges) {
   std::vector<ReferencePoint> points;
   for (const GaussPoint& x : gauss_points())
     for (const GaussPoint& y : gauss_points())
       for (const GaussPoint& z : gauss_points())
-        points.push_back({x.weight * y.weight * z.weight, cube_functions(x.at, y.at, z.at)});
+        points.push_back({x.weight * y.weight * z.weight, cube_functions(x.at, y.at, z.at, has_edges)});
   return points;
 }
 
 }  // namespace
 
-const std::vector<ReferencePoint>& reference_points(int corners, int /*start*/) {
+const std::vector<ReferencePoint>& reference_points(int corners, int /*start*/, bool has_edges) {
   SPREKK_EXPECT(shape_with(corners) != nullptr, corners);
-  static const std::vector<ReferencePoint> tetrahedron = tetrahedron_points(), wedge = wedge_points(),
-                                           cube = cube_points();
-  return corners == 4 ? tetrahedron : corners == 6 ? wedge : cube;
+  using Points = std::array<std::vector<ReferencePoint>, 2>;  // without and with edges
+  static const Points tetrahedron{tetrahedron_points(false), tetrahedron_points(true)};
+  static const Points wedge{wedge_points(false), wedge_points(true)}, cube{cube_points(false), cube_points(true)};
+  return (corners == 4 ? tetrahedron : corners == 6 ? wedge : cube)[has_edges ? 1 : 0];
 }
 
 }  // namespace sprekk::poromechanics
