@@ -71,13 +71,14 @@ Vector cell_sums(const Mesh& mesh, const Vector& faces, int components) {
 
 SparseMatrix keep_rows(const SparseMatrix& matrix, const std::vector<char>& keep) {
   SPREKK_EXPECT(static_cast<Eigen::Index>(keep.size()) == matrix.rows(), keep.size(), matrix.rows());
-  std::vector<Triplet> entries;
-  for (int r = 0; r < matrix.outerSize(); ++r)
-    if (keep[r])
-      for (SparseMatrix::InnerIterator entry(matrix, r); entry; ++entry)
-        entries.emplace_back(r, static_cast<int>(entry.col()), entry.value());
   SparseMatrix kept(matrix.rows(), matrix.cols());
-  kept.setFromTriplets(entries.begin(), entries.end());
+  kept.reserve(matrix.nonZeros());
+  for (int r = 0; r < matrix.outerSize(); ++r) {
+    kept.startVec(r);
+    if (!keep[r]) continue;
+    for (SparseMatrix::InnerIterator entry(matrix, r); entry; ++entry) kept.insertBack(r, entry.col()) = entry.value();
+  }
+  kept.finalize();
   return kept;
 }
 

@@ -194,8 +194,12 @@ ColourRange add_field(const MapField& field, const std::vector<const Grid*>& gri
 std::string map_json(const RunResults& results, std::size_t most_bytes) {
   const std::vector<MapField> fields = map_fields(results), line_fields = fracture_map_fields(results);
   Json data = {{"inSpace", dimension == 3},  // points are projected
-               {"colours", Json::array()},     {"fields", Json::array()}, {"lineFields", Json::array()},
-               {"names", names_json(results)}, {"meshes", Json::array()}, {"times", Json::array()}};
+               {"edges", Json::array()},      {"colours", Json::array()},     {"fields", Json::array()},
+               {"lineFields", Json::array()}, {"names", names_json(results)}, {"meshes", Json::array()},
+               {"times", Json::array()}};
+  for (const DrawnEdge& edge : results.edges)
+    data["edges"].push_back(
+        {{"name", edge.coordinate}, {"from", edge.from}, {"to", edge.to}, {"low", edge.low}, {"high", edge.high}});
   for (int i = 0; i < colour_count; ++i) data["colours"].push_back(viridis(i / (colour_count - 1.0)));
   const auto times = chosen(results, fields.size(), most_bytes);
   std::vector<const Grid*> grids, lines;

@@ -180,14 +180,17 @@
 
   const setFrame = () => {
     const shape = (whole[3] - whole[1]) / (whole[2] - whole[0]);
-    frame.width = 1650;
+    margin.right = state.lineField >= 0 ? 460 : 230;
+    // What is written keeps its size on a narrow screen.
+    const padding = 48, room = ratio * (document.querySelector('main').clientWidth - padding) - margin.left - margin.right;
+    const widest = Math.min(1650, Math.max(room, 480));
+    frame.width = widest;
     frame.height = Math.round(frame.width * shape);
     if (frame.height > 1150) {
       frame.height = 1150;
-      frame.width = Math.max(700, Math.round(frame.height / shape));
+      frame.width = Math.min(widest, Math.max(700, Math.round(frame.height / shape)));
     }
     frame.height = Math.max(frame.height, 300);
-    margin.right = state.lineField >= 0 ? 460 : 230;
     canvas.width = margin.left + frame.width + margin.right;
     canvas.height = margin.top + frame.height + margin.bottom;
     canvas.style.maxWidth = canvas.width / ratio + 'px';
@@ -197,7 +200,7 @@
     const { left, top } = margin;
     context.textAlign = 'center';
     context.textBaseline = 'top';
-    for (const tick of ticks(box[0], box[2], 8)) {
+    for (const tick of ticks(box[0], box[2], Math.max(2, Math.round(frame.width / 206)))) {
       const x = left + (tick.value - box[0]) / (box[2] - box[0]) * frame.width;
       context.strokeRect(x, top + frame.height, 0, 8);
       context.fillText(tick.text, x, top + frame.height + 12);
@@ -218,6 +221,38 @@
     context.restore();
   };
 
+  // Edges of the box around a body, with what they count.
+  const drawEdges = (context, box) => {
+    const { left, top } = margin;
+    const at = (point) => [left + (point[0] - box[0]) / (box[2] - box[0]) * frame.width,
+                           top + (box[3] - point[1]) / (box[3] - box[1]) * frame.height];
+    const isShown = ([x, y]) => x >= left && x <= left + frame.width && y >= top && y <= top + frame.height;
+    const centre = at([(whole[0] + whole[2]) / 2, (whole[1] + whole[3]) / 2]);
+    context.textBaseline = 'middle';
+    for (const edge of data.edges) {
+      const from = at(edge.from), to = at(edge.to);
+      const middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
+      // Out of the body, at right angles to the edge.
+      const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+      let out = [(to[1] - from[1]) / length, (from[0] - to[0]) / length];
+      if (out[0] * (middle[0] - centre[0]) + out[1] * (middle[1] - centre[1]) < 0) out = [-out[0], -out[1]];
+      context.textAlign = out[0] > 0.3 ? 'left' : out[0] < -0.3 ? 'right' : 'center';
+      const write = (text, [x, y], distance) => context.fillText(text, x + out[0] * distance, y + out[1] * distance);
+      for (const tick of ticks(edge.low, edge.high, Math.min(4, Math.max(1, length / 100)))) {
+        const share = (tick.value - edge.low) / (edge.high - edge.low);
+        if (edge.name === 'y' && Math.abs(share - 0.5) > 0.48) continue;  // the other edges write at its ends
+        const place = [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+        if (!isShown(place)) continue;
+        context.beginPath();
+        context.moveTo(...place);
+        context.lineTo(place[0] + out[0] * 8, place[1] + out[1] * 8);
+        context.stroke();
+        write(tick.text, place, 16);
+      }
+      if (isShown(middle)) write(edge.name + ' [m]', middle, 62);
+    }
+  };
+
   const drawFrame = (context, box, range, field) => {
     const { left, top } = margin;
     context.fillStyle = '#1d2329';
@@ -225,7 +260,7 @@
     context.lineWidth = 1.5;
     context.font = 11 * ratio + 'px system-ui, Arial, sans-serif';
     context.strokeRect(left, top, frame.width, frame.height);
-    if (!data.inSpace) drawAxes(context, box);
+    (data.inSpace ? drawEdges : drawAxes)(context, box);
     drawBar(context, left + frame.width + 40, colours, range, field.unit);
     if (state.lineField >= 0)
       drawBar(context, left + frame.width + 270, lineColours, lineScale(state.time), data.lineFields[state.lineField].unit);

@@ -50,6 +50,7 @@ RunResults read_results(const fs::path& folder) {
   const std::vector<Snapshot> matrix = index(results, "matrix.pvd"), fractures = index(results, "fractures.pvd"),
                               paths = index(results, "paths.pvd");
   results.written_count = matrix.size();
+  fs::path last;
   for (const Snapshot& snapshot : evenly_chosen(matrix, RunResults::most_times)) {
     RunResults::Written written{snapshot.time, grid(results, snapshot.file), {}};
     const auto of_this_time = [&](const std::vector<Snapshot>& all) {
@@ -58,8 +59,11 @@ RunResults read_results(const fs::path& folder) {
     };
     written.fractures = of_this_time(fractures);
     written.paths = of_this_time(paths);
-    if (written.matrix.cell_count() > 0) results.written.push_back(std::move(written));
+    if (written.matrix.cell_count() == 0) continue;
+    results.written.push_back(std::move(written));
+    last = snapshot.file;
   }
+  if (!last.empty()) results.edges = drawn_edges(last);
   return results;
 }
 

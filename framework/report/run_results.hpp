@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/report/drawn_grid.hpp"
 #include "framework/results/csv_table.hpp"
 #include "framework/results/grid.hpp"
 
@@ -24,6 +25,7 @@ struct RunResults {
   CsvTable history, coupling;
   std::vector<Written> written;       ///< at most `most_times` of the written times
   std::size_t written_count = 0;      ///< the number of all written times
+  std::vector<DrawnEdge> edges;       ///< of the box around the body, at the last of these times
   std::vector<std::string> problems;  ///< files that could not be read
   static constexpr std::size_t most_times = 12;
 };

@@ -156,6 +156,7 @@ fs::path Atlas::write_study(const std::vector<Run>& runs) const {
   text += "]\nset:\n";
   for (const std::string& setting : options_.settings) {
     const auto [path, value] = split_setting(setting, "--set");
+    if (path == "time.end" || path == "time.smallest") continue;  // the scene has them, and they follow below
     text += "  " + yaml_quoted(path) + ": " + value + "\n";
   }
   text += fmt::format("  time.end: {:.17g} s\n  time.smallest: {:.17g} s\nruns:\n",

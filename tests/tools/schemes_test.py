@@ -83,6 +83,14 @@ class Schemes(unittest.TestCase):
                                  ("pore-rock=fixed_stress", held), ("rock-pore=fixed_stress", held), ("jacobi-pore-rock=fixed_stress", both)):
                 self.assertAlmostEqual(schemes[name]["predicted"] / factor, 1, delta=0.02, msg=f"{case} {name}")
 
+    def test_an_end_that_is_set_is_the_end(self):
+        found, _ = self.atlas(TERZAGHI, "--accelerate", "none", "--only", "pore-rock=fixed_stress", "--steps", "3",
+                              settings=(*TIGHT, "time.step=1 s", "time.end=2 s"))
+        self.assertTrue(any(one["converged"] for one in found["schemes"]))
+        text = (self.folder / "schemes.yaml").read_text(encoding="utf-8")
+        self.assertEqual(text.count("time.end"), 1)
+        self.assertIn("time.end: 2 s", text)
+
     def test_until_and_at_most_end_the_passes(self):
         # A pass leaves 0.8 of an error, and behind a residual r of the terms p is off by r/1.8: a hundredth of `until` takes ln(100)/ln(1/0.8)
         # passes more, and one pass less than those is not enough.

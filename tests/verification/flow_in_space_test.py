@@ -4,7 +4,9 @@ rest under gravity; scenes of a plane that are extruded; what enters and leaves;
 
 Twins: fractures in general position, mirrored, values that are disturbed by 1e-9, and two processes."""
 
+import json
 import math
+import re
 import subprocess
 import unittest
 
@@ -205,7 +207,13 @@ time: {{end: 1 s, step: 1 s}}
         self.assertLess(abs(results.history["fluid_balance_error[m^3]"][-1]), 1e-9 * results.history["fluid_injected[m^3]"][-1])
         report = self.call("report", results.folder)
         self.assertEqual(report.returncode, 0, report.stderr)
-        self.assertIn('"inSpace":true', (results.folder / "report.html").read_text())
+        page = (results.folder / "report.html").read_text()
+        self.assertIn('"inSpace":true', page)
+        edges = json.loads(re.search(r'"edges":(\[.*?\}\])', page)[1])
+        self.assertEqual([(edge["name"], edge["low"], edge["high"]) for edge in edges], [("x", 0, 100), ("y", 0, 80), ("z", -60, 0)])
+        for one, other in ((0, 1), (1, 2)):  # they meet, at the front below and at the left behind
+            meeting = (edges[0]["from"], edges[1]["from"]) if one == 0 else (edges[1]["to"], edges[2]["from"])
+            np.testing.assert_allclose(*meeting, atol=1e-9)
         with self.assertRaises(ValueError):
             results.paths()
         with self.assertRaises(ValueError):

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <vector>
 
 #include "components/matrix_flow/mpfa/local_fluxes.hpp"
 #include "components/matrix_flow/mpfa/tip_correction.hpp"
@@ -31,44 +32,51 @@ class Power {
       for (const int face : mesh.node_faces[node])
         if (mesh.face_cells[face][1] == none) number(walls_, face);
     }
-    linear_ = added_ = Eigen::MatrixXd::Zero(size(), size());
+    linear_ = Eigen::MatrixXd::Zero(size(), size());
+    modes_ = Eigen::MatrixX2d::Zero(size(), 2);
   }
 
   void add(const InteractionRegion& region, const LocalFluxes& local, const TipCorrection& tip) {
+    columns_.clear();
+    for (const Subcell& subcell : region.subcells) columns_.push_back(cells_.at(subcell.cell));
+    for (int f = 0; f < region.subface_count(); ++f)
+      if (!region.is_inner(f)) columns_.push_back(place_of_wall(region.faces[f]));
     for (int f = 0; f < region.subface_count(); ++f) {
       const auto [first, second] = region.neighbours[f];
       const double share = region.shares[f];
-      const int from = cells_.at(region.subcells[first].cell);
       if (region.is_inner(f)) {
-        const int to = cells_.at(region.subcells[second].cell);
-        add_row(from, region, local.flux(f), tip.of_flux(f), 1);
-        add_row(to, region, local.flux(f), tip.of_flux(f), -1);
+        const TipFlow::Modes modes = tip.of_flux(f);
+        add_row(columns_[first], local.flux(f), modes, 1);
+        add_row(columns_[second], local.flux(f), modes, -1);
       } else {
         const int wall = place_of_wall(region.faces[f]);
-        linear_(from, wall) += share;
-        add_row(wall, region, local.pressure(f), tip.of_pressure(f), -share);
+        linear_(columns_[first], wall) += share;
+        add_row(wall, local.pressure(f), tip.of_pressure(f), -share);
       }
     }
   }
 
-  double dissipative_part() const { return sprekk::matrix_flow::dissipative_part(linear_, added_); }
+  double dissipative_part() const {
+    Eigen::MatrixXd added = Eigen::MatrixXd::Zero(size(), size());
+    for (std::size_t i = 0; i < flow_.cells().size(); ++i)
+      added.col(cells_.at(flow_.cells()[i])) = modes_ * flow_.share().col(i);
+    return sprekk::matrix_flow::dissipative_part(linear_, added);
+  }
 
  private:
   int size() const { return static_cast<int>(cells_.size() + walls_.size()); }
   int place_of_wall(int face) const { return static_cast<int>(cells_.size()) + walls_.at(face); }
 
-  void add_row(int row, const InteractionRegion& region, const double* own, const TipFlow::Modes& modes,
-               double factor) {
-    for (const Subcell& subcell : region.subcells) linear_(row, cells_.at(subcell.cell)) += factor * *own++;
-    for (int f = 0; f < region.subface_count(); ++f)
-      if (!region.is_inner(f)) linear_(row, place_of_wall(region.faces[f])) += factor * *own++;
-    for (std::size_t i = 0; i < flow_.cells().size(); ++i)
-      added_(row, cells_.at(flow_.cells()[i])) += factor * modes.dot(flow_.share().col(i));
+  void add_row(int row, const double* own, const TipFlow::Modes& modes, double factor) {
+    for (const int column : columns_) linear_(row, column) += factor * *own++;
+    modes_.row(row) += factor * modes;
   }
 
   const TipFlow& flow_;
   std::map<int, int> cells_, walls_;
-  Eigen::MatrixXd linear_, added_;
+  std::vector<int> columns_;  ///< of the values that enter the local problem of a region
+  Eigen::MatrixXd linear_;
+  Eigen::MatrixX2d modes_;  ///< what the rows get for each of the two modes, with amounts of 1
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
+#include "framework/linear/iterative/without_small_entries.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -43,6 +44,9 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
       for (std::size_t k = 0; k < owned.size(); ++k)
         diagonal.insert(static_cast<int>(k), owned[k]) = block.stabilization[owned[k]];
       a += diagonal;
+    } else if (block.kind == BlockKind::bulk_elliptic) {
+      // Multi-point fluxes reach far, by entries that cost a multigrid more than they help it.
+      a = without_small_entries(a, partition.parts[part].owned);
     }
     cycles_.push_back(trilinos().multigrid(a, partition.parts[part].owned, block));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -84,16 +85,31 @@ SparseMatrix gather_local_rows(const LinearSystem& system, const Partition& part
   return gather_entries(entries, static_cast<int>(local.unknowns.size()), static_cast<int>(system.local.cols()));
 }
 
-// The columns of `rows` that belong to `part`.
-SparseMatrix columns_of_part(const SparseMatrix& rows, const Partition& partition, int part) {
-  std::vector<Triplet> entries;
-  for (int row = 0; row < rows.rows(); ++row)
-    for (SparseMatrix::InnerIterator entry(rows, row); entry; ++entry)
-      if (partition.part_of[entry.col()] == part)
-        entries.emplace_back(row, partition.place_of[entry.col()], entry.value());
-  SparseMatrix result(rows.rows(), static_cast<int>(partition.parts[part].unknowns.size()));
-  result.setFromTriplets(entries.begin(), entries.end());
+// The columns of rows that belong to a part. Unknowns of a part are in ascending order, and so are their places.
+SparseMatrix columns_of_part(const SparseMatrix& rows, const std::vector<int>& wanted, const Partition& partition,
+                             int part) {
+  const auto is_of_part = [&](Eigen::Index column) { return partition.part_of[column] == part; };
+  Eigen::VectorXi lengths(wanted.size());
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    lengths[k] = 0;
+    for (SparseMatrix::InnerIterator entry(rows, wanted[k]); entry; ++entry) lengths[k] += is_of_part(entry.col());
+  }
+  SparseMatrix result(static_cast<int>(wanted.size()), static_cast<int>(partition.parts[part].unknowns.size()));
+  result.reserve(lengths.sum());
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    result.startVec(static_cast<int>(k));
+    for (SparseMatrix::InnerIterator entry(rows, wanted[k]); entry; ++entry)
+      if (is_of_part(entry.col()))
+        result.insertBack(static_cast<int>(k), partition.place_of[entry.col()]) = entry.value();
+  }
+  result.finalize();
   return result;
+}
+
+std::vector<int> all_rows(const SparseMatrix& rows) {
+  std::vector<int> all(rows.rows());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 using Blocks = std::vector<const UnknownBlock*>;
@@ -169,15 +185,7 @@ SparseMatrix sub_matrix(const SparseMatrix& owned_rows, const Partition& partiti
   SPREKK_EXPECT(is_index(rows, static_cast<long>(partition.parts.size())), rows);
   SPREKK_EXPECT(is_index(columns, static_cast<long>(partition.parts.size())), columns);
   SPREKK_EXPECT(are_indices(partition.parts[rows].owned_rows, owned_rows.rows()), owned_rows.rows());
-  const SystemPart& part = partition.parts[rows];
-  std::vector<Triplet> entries;
-  for (std::size_t k = 0; k < part.owned.size(); ++k)
-    for (SparseMatrix::InnerIterator entry(owned_rows, part.owned_rows[k]); entry; ++entry)
-      if (partition.part_of[entry.col()] == columns)
-        entries.emplace_back(static_cast<int>(k), partition.place_of[entry.col()], entry.value());
-  SparseMatrix result(static_cast<int>(part.owned.size()), static_cast<int>(partition.parts[columns].unknowns.size()));
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
+  return columns_of_part(owned_rows, partition.parts[rows].owned_rows, partition, columns);
 }
 
 LinearReport LocalElimination::factor(const LinearSystem& system, const Partition& partition) {
@@ -186,7 +194,7 @@ LinearReport LocalElimination::factor(const LinearSystem& system, const Partitio
   rows_ = gather_local_rows(system, partition);
 
   LinearSystem alone;
-  alone.local = columns_of_part(rows_, partition, static_cast<int>(partition.parts.size()) - 1);
+  alone.local = columns_of_part(rows_, all_rows(rows_), partition, static_cast<int>(partition.parts.size()) - 1);
   alone.rows.resize(unknowns);
   for (int place = 0; place < unknowns; ++place) alone.rows[place] = place;
   std::vector<Triplet> inverses;
@@ -214,7 +222,7 @@ SparseMatrix LocalElimination::correction(const LinearSystem& system, const Part
   const SparseMatrix bulk_from_local = sub_matrix(system.local, partition, bulk, local);
   if (partition.local().unknowns.empty())
     return SparseMatrix(bulk_from_local.rows(), static_cast<int>(partition.parts[bulk].unknowns.size()));
-  const SparseMatrix weighted = cell_inverses_ * columns_of_part(rows_, partition, bulk);
+  const SparseMatrix weighted = cell_inverses_ * columns_of_part(rows_, all_rows(rows_), partition, bulk);
   SparseMatrix product = bulk_from_local * weighted;
   product *= -1.0;
   return product;

@@ -142,7 +142,8 @@ CondensedSolver::~CondensedSolver() = default;
 LinearReport CondensedSolver::factor(const LinearSystem& system) {
   expect_sound(system);
   is_condensed_ = false;
-  if (has_both_kinds(system) && all_say(system.local.isCompressed())) {
+  const bool is_whole_direct = is_direct(options_, static_cast<int>(system.local.cols()));
+  if (is_whole_direct && has_both_kinds(system) && all_say(system.local.isCompressed())) {
     const LinearReport report = condense(system);
     is_condensed_ = report.solved;
     if (is_condensed_) return report;

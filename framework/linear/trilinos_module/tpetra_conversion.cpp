@@ -1,6 +1,10 @@
 #include "framework/linear/trilinos_module/tpetra_conversion.hpp"
 
+#include <Tpetra_Details_makeColMap.hpp>
+#include <Tpetra_Import_Util2.hpp>
+#include <algorithm>
 #include <cstdlib>
+#include <stdexcept>
 
 namespace sprekk::tpetra {
 
@@ -30,18 +34,28 @@ Teuchos::RCP<const Map> make_map(const std::vector<int>& ids, int count) {
 
 Teuchos::RCP<Matrix> make_matrix(const SparseMatrix& rows, const Teuchos::RCP<const Map>& row_map,
                                  const Teuchos::RCP<const Map>& domain_map) {
-  std::vector<std::size_t> lengths(rows.rows());
-  for (int row = 0; row < rows.rows(); ++row) lengths[row] = rows.outerIndexPtr()[row + 1] - rows.outerIndexPtr()[row];
-  const auto matrix =
-      Teuchos::rcp(new Matrix(row_map, Teuchos::ArrayView<const std::size_t>(lengths.data(), lengths.size())));
-  std::vector<Id> columns;
-  for (int row = 0; row < rows.rows(); ++row) {
-    const int begin = rows.outerIndexPtr()[row], end = rows.outerIndexPtr()[row + 1];
-    if (begin == end) continue;
-    columns.assign(rows.innerIndexPtr() + begin, rows.innerIndexPtr() + end);
-    matrix->insertGlobalValues(row_map->getGlobalElement(row), end - begin, rows.valuePtr() + begin, columns.data());
-  }
-  matrix->fillComplete(domain_map, row_map);
+  // Tpetra's own way, insertGlobalValues and fillComplete, takes five times as long.
+  std::vector<int> place(rows.cols(), -1);
+  const int entries = static_cast<int>(rows.nonZeros());
+  for (int k = 0; k < entries; ++k) place[rows.innerIndexPtr()[k]] = 0;
+  const std::size_t used = std::count(place.begin(), place.end(), 0);
+  Kokkos::View<Id*, Map::node_type::memory_space> columns("columns", used);
+  for (int column = 0, k = 0; column < rows.cols(); ++column)
+    if (place[column] == 0) columns[k++] = column;
+  Teuchos::RCP<const Map> column_map;
+  if (Tpetra::Details::makeColMap(column_map, domain_map, columns) != 0)
+    throw std::logic_error("columns of a matrix that no process has");
+  for (std::size_t k = 0; k < used; ++k) place[column_map->getGlobalElement(static_cast<int>(k))] = static_cast<int>(k);
+
+  const Teuchos::ArrayRCP<std::size_t> starts(rows.rows() + 1);
+  const Teuchos::ArrayRCP<int> places(entries);
+  const Teuchos::ArrayRCP<double> values(entries);
+  std::copy_n(rows.outerIndexPtr(), rows.rows() + 1, starts.begin());
+  for (int k = 0; k < entries; ++k) places[k] = place[rows.innerIndexPtr()[k]];
+  std::copy_n(rows.valuePtr(), entries, values.begin());
+  Tpetra::Import_Util::sortCrsEntries(starts(), places(), values());
+  const auto matrix = Teuchos::rcp(new Matrix(row_map, column_map, starts, places, values));
+  matrix->expertStaticFillComplete(domain_map, row_map);
   return matrix;
 }
 

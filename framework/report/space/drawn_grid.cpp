@@ -16,6 +16,16 @@ struct View {
   Point ahead = Point(0.45, 0.8, -0.4).normalized();
   Point right = ahead.cross(Point::UnitZ()).normalized();
   Point up = right.cross(ahead);
+  std::array<double, 2> of(const Point& x) const { return {x.dot(right), x.dot(up)}; }
+};
+
+/// The smallest box along the axes that holds all points; that of no points is at the origin.
+struct Box {
+  Point low = Point::Zero(), high = Point::Zero();
+  explicit Box(const std::vector<Point>& points) {
+    if (!points.empty()) low = high = points.front();
+    for (const Point& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  }
 };
 
 /// A face or an edge that one cell of the file has alone.
@@ -72,12 +82,10 @@ std::vector<DrawnFace> drawn_faces(const GridData& read, const std::vector<Point
     for (std::size_t k = 0; k < shape_with(cell.size())->faces.size(); ++k)
       all.push_back({nodes_of_face(cell, static_cast<int>(k)), i});
   }
-  Point low = Point::Zero(), high = Point::Zero();
-  if (!points.empty()) low = high = points.front();
-  for (const Point& x : points) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  const Box box(points);
   const auto is_on_side = [&](const FaceNodes& face) {
     for (int axis = 0; axis < dimension; ++axis)
-      for (const double at : {low[axis], high[axis]})
+      for (const double at : {box.low[axis], box.high[axis]})
         if (std::all_of(face.begin(), face.end(), [&](int node) { return points[node][axis] == at; })) return true;
     return false;
   };
@@ -98,7 +106,7 @@ Grid drawn_grid(const std::filesystem::path& vtu) {
   const std::vector<Point> points = points_of(read);
   const View view;
   Grid grid;
-  for (const Point& x : points) grid.points.push_back({x.dot(view.right), x.dot(view.up)});
+  for (const Point& x : points) grid.points.push_back(view.of(x));
   if (read.cell_dimension == dimension) {
     grid.points_per_cell = 3;
     for (const DrawnFace& drawn : drawn_faces(read, points, view))
@@ -120,6 +128,21 @@ Grid drawn_grid(const std::filesystem::path& vtu) {
   }
   add_arrays(read, grid);
   return grid;
+}
+
+std::vector<DrawnEdge> drawn_edges(const std::filesystem::path& vtu) {
+  const Box box(points_of(read_whole(vtu)));
+  const View view;
+  std::vector<DrawnEdge> edges;
+  // x and y along the bottom at the front and at the left, z at the left behind.
+  for (int axis = 0; axis < dimension; ++axis) {
+    Point from = box.low;
+    if (axis == 2) from[1] = box.high[1];
+    Point to = from;
+    to[axis] = box.high[axis];
+    edges.push_back({std::string(1, "xyz"[axis]), view.of(from), view.of(to), box.low[axis], box.high[axis]});
+  }
+  return edges;
 }
 
 }  // namespace sprekk
