@@ -103,6 +103,26 @@ TEST(SchurComplementOfAll, IsThatOfADenseElimination) {
   }
 }
 
+// Bytes of the bulk: those of one process, shared. What each has of fractures is the same everywhere.
+TEST(BulkOfAll, IsHeldOnce) {
+  const auto bytes_of = [](const SparseMatrix& a) {
+    return static_cast<double>(a.nonZeros() * (sizeof(double) + sizeof(int)) + a.outerSize() * sizeof(int));
+  };
+  const LinearSystem whole = test::FracturedBiot{40}.build();
+  const BulkSplitting split(mine(whole));
+  double bulk = 0, fractures = 0;
+  {
+    const parallel::Alone by_myself;
+    const BulkSplitting alone(whole);
+    bulk = bytes_of(alone.bb.matrix) + bytes_of(alone.bf.matrix);
+    fractures = bytes_of(alone.fb.matrix) + bytes_of(alone.ff.matrix);
+  }
+  const double here = bytes_of(split.bb.matrix) + bytes_of(split.bf.matrix);
+  EXPECT_EQ(parallel::sum(here), bulk);
+  EXPECT_LE(parallel::max(here), 1.3 * bulk / parallel::size());  // strips of unlike numbers of nodes
+  EXPECT_EQ(bytes_of(split.fb.matrix) + bytes_of(split.ff.matrix), fractures);
+}
+
 // A pressure that nothing in its own rows holds: its parts are known, and chosen, alike on all processes.
 TEST(PartsHeldByFractures, AreThoseOfOneProcess) {
   constexpr int n = 12, half = n * n / 2;
