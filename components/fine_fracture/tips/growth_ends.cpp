@@ -63,6 +63,24 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
                       std::abs(shear)});
 }
 
+std::vector<Quantity> Tips::event_figures() const {
+  return {{"from", "m", 0}, {"to", "m", 0}, {"largest_load", "1", 0}, {"surplus_energy", "J/m", 0}};
+}
+
+std::vector<Event> Tips::events(const StepTime& step) const {
+  std::vector<Event> events;
+  if (examined_ != step.start) return events;
+  for (const EndNote& note : notes_) {
+    if (!note.event) continue;
+    events.push_back(*note.event);
+    Event& event = events.back();
+    event.begin = event.end = step.end;
+    for (const Tip& tip : tips_)
+      if (event.thing == name() + "." + tip.name) event.place = position(tip, tip.now.path);
+  }
+  return events;
+}
+
 void Tips::note_step(Notes& notes, const StepTime&) const {
   for (const EndNote& note : notes_) notes.add(note.topic, note.text, note.measure);
   for (const Tip& tip : tips_) note_narrow_square(tip, notes);

@@ -14,6 +14,7 @@
 #include "framework/assembly/counts_work.hpp"
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/keeps_state.hpp"
+#include "framework/assembly/tells_events.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/growing.hpp"
@@ -40,6 +41,7 @@ class Tips : public Component,
              public KeepsState,
              public FollowsMesh,
              public CountsWork,
+             public TellsEvents,
              public FractureTips,
              public MovingTips,
              public Growing {
@@ -58,6 +60,9 @@ class Tips : public Component,
   std::vector<Profile::Entry> efforts() const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
+  /// Jumps: an event for each tip; those of one jump have the same time.
+  std::vector<Quantity> event_figures() const override;
+  std::vector<Event> events(const StepTime& step) const override;
 
   /// Throws InputError for jumps on walls where the fine level takes none.
   void accept_surroundings(TipSurroundings& surroundings) override;
@@ -243,7 +248,8 @@ class Tips : public Component,
   /// A note on how growth has ended.
   struct EndNote {
     std::string topic, text;
-    double measure;  ///< how bad it is: of several notes on one topic the worst is kept
+    double measure;                   ///< how bad it is: of several notes on one topic the worst is kept
+    std::optional<Event> event = {};  ///< that it tells of; when and where, events() says
   };
   std::vector<EndNote> notes_;                                      ///< of the growth in this step
   std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();  ///< of all fine levels
