@@ -63,7 +63,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
         rock_(context.the<RockWalls>()),
         contacts_(context),
         fluid_(context.find<FractureFluid>()),
-        stressed_rock_(context.find<RockState>()),
+        rock_state_(context.find<RockState>()),
         fluid_left_out_(fluid_ ? "" : context.left_out<FractureFluid>()) {
     if (contacts_.empty() && !fluid_)
       throw InputError(context.origin, "coupler " + name() + " has nothing that acts on the walls",
@@ -77,7 +77,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     }
     for (FractureContact* contact : contacts_) {
       if (!contact->needs_shear_modulus()) continue;
-      rock_state_ = &context.the<RockState>();
+      context.the<RockState>();
       if (!shear_modulus())
         throw InputError(
             context.origin, "the shear modulus beside the fractures is unknown",
@@ -131,7 +131,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     compliance_ = positive(std::move(compliance));
     for (FractureContact* contact : contacts_) {
       contact->set_wall_stiffness(compliance_.cwiseInverse());
-      if (contact->needs_shear_modulus()) contact->set_shear_modulus(shear_modulus().value());
+      if (const auto modulus = shear_modulus()) contact->set_shear_modulus(*modulus);
     }
     SPREKK_ASSERT(compliance_.minCoeff() > 0, compliance_.minCoeff());
     if (loaded_with_ != alpha_.version()) load_with_fluid();
@@ -227,10 +227,10 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
 
   /// Rock between fractures that is held by nothing but tractions on its walls, which are zero at the start.
   void note_pockets(Notes& notes) const {
-    if (contacts_.empty() || !stressed_rock_) return;
+    if (contacts_.empty() || !rock_state_) return;
     for (int w = 0; w < mesh_.wall_count(); ++w) {
       const int face = mesh_.wall_face(w);
-      if (!stressed_rock_->initial_stress(mesh_.face_cells[face][0], mesh_.face_center[face]).isZero(0)) return;
+      if (!rock_state_->initial_stress(mesh_.face_cells[face][0], mesh_.face_center[face]).isZero(0)) return;
     }
     const std::vector<Pocket> enclosed = pockets(mesh_);
     if (enclosed.empty()) return;
@@ -243,7 +243,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
 
   /// T = sigma_0 n on the plus wall, and f = T + alpha_i p_i n. Nothing for rock without stress.
   void load_with_initial_stress(Reference reference) {
-    if (!stressed_rock_) return;
+    if (!rock_state_) return;
     const Vector of_rock = initial_tractions();
     if (of_rock.isZero(0)) return;
     Vector jumps = Vector::Zero(of_rock.size());
@@ -277,7 +277,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
       const FractureCell& cell = mesh_.fracture_cells[i];
       const SymmetricTensor stress =
-          stressed_rock_->initial_stress(mesh_.face_cells[cell.faces[0]][0], mesh_.face_center[cell.faces[0]]);
+          rock_state_->initial_stress(mesh_.face_cells[cell.faces[0]][0], mesh_.face_center[cell.faces[0]]);
       tractions.segment<dimension>(dimension * i) = cell.to_local(tensor_of(stress) * cell.normal);
     }
     return tractions;
@@ -286,6 +286,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
   /// The shear modulus of the rock beside each fracture cell, Pa: twice that of both sides in series. Nothing where
   /// rock is anisotropic.
   std::optional<Vector> shear_modulus() const {
+    if (!rock_state_) return std::nullopt;
     Vector modulus(mesh_.fracture_cell_count());
     for (int i = 0; i < modulus.size(); ++i) {
       double compliance = 0;
@@ -329,12 +330,11 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
   WallTractionOptions options_;
   RockWalls& rock_;
   Contacts contacts_;
-  std::vector<Vector> on_cells_;           ///< of each contact: 1 for values of its fracture cells; none for all
-  const RockState* rock_state_ = nullptr;  ///< where a contact needs the shear modulus
+  std::vector<Vector> on_cells_;  ///< of each contact: 1 for values of its fracture cells; none for all
   FractureFluid* fluid_;
-  const RockState* stressed_rock_;  ///< nullptr where the rock offers no initial stress
-  std::string fluid_left_out_;      ///< a component of the scene that the coupler does not stand between
-  Property alpha_;                  ///< alpha_i of Eq. 4 of the paper, with a fluid
+  const RockState* rock_state_;  ///< nullptr where the rock does not tell its state
+  std::string fluid_left_out_;   ///< a component of the scene that the coupler does not stand between
+  Property alpha_;               ///< alpha_i of Eq. 4 of the paper, with a fluid
   std::uint64_t loaded_with_ = 0;
   Vector compliance_;     ///< m/Pa, (normal, tangential): how a cell's traction closes its own jump
   Operator normal_load_;  ///< `dimension` fracture cells × fracture cells: pressure pushes the plus wall along −n

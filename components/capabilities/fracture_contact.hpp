@@ -35,10 +35,9 @@ class FractureContact {
   /// the method of solution, on which the solution does not depend, and tells sliding() which slip and tractions are
   /// small.
   virtual void set_wall_stiffness(const Vector& stiffness) = 0;
-  /// Whether the law depends on the shear modulus of the rock. If it does, set_shear_modulus is called before each
-  /// step.
+  /// Whether the law depends on the shear modulus of the rock. If it does, rock without one is refused.
   virtual bool needs_shear_modulus() const { return false; }
-  /// The shear modulus of the rock beside each fracture cell, Pa.
+  /// The shear modulus of the rock beside each fracture cell, Pa. Called before each step where it is known.
   virtual void set_shear_modulus(const Vector& /*modulus*/) {}
   /// The opening of a cell whose walls touch under a normal traction (Pa) and have not slid, m: negative where they
   /// close under pressure.

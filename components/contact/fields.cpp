@@ -69,6 +69,16 @@ Field& add_slip_before_event(const ComponentContext& context) {
                                            .doc = "Slip before the event that goes on; between events, slip"});
 }
 
+Field& add_shear_before_event(const ComponentContext& context) {
+  return context.fields.add(context.mesh,
+                            {.owner = context.name,
+                             .name = "shear_before_event",
+                             .location = Location::fracture_cell,
+                             .role = Role::derived(),
+                             .unit = "Pa",
+                             .doc = "Shear traction before the event that goes on, or before the last step"});
+}
+
 Field& add_peak_slip_rate(const ComponentContext& context) {
   return context.fields.add(context.mesh, {.owner = context.name,
                                            .name = "peak_slip_rate",

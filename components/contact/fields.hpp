@@ -21,6 +21,8 @@ Field& add_state(const ComponentContext& context);
 Field& add_slip_rate(const ComponentContext& context);
 /// Adds the slip of each fracture cell, m, along its tangents, before the current event.
 Field& add_slip_before_event(const ComponentContext& context);
+/// Adds the size of the shear traction of each fracture cell, Pa, before the current event, or the last one.
+Field& add_shear_before_event(const ComponentContext& context);
 /// Adds the greatest slip rate of each fracture cell in the current event, m/s.
 Field& add_peak_slip_rate(const ComponentContext& context);
 

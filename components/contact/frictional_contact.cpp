@@ -76,7 +76,7 @@ void FrictionalContact::evaluate_data(const StepTime& step) {
 }
 
 void FrictionalContact::begin_step(const StepTime& step) {
-  if (rate_and_state_) rate_and_state_->begin_step(step);
+  if (rate_and_state_) rate_and_state_->begin_step(step, slipping_walls());
   back_slip_.clear();
   kept_.clear();
 }
@@ -188,8 +188,18 @@ Vector FrictionalContact::slips() const {
   return slips;
 }
 
+SlippingWalls FrictionalContact::slipping_walls() const {
+  SlippingWalls walls{slips(), Vector(mesh_.fracture_cell_count()), Vector(mesh_.fracture_cell_count())};
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    walls.shear_before[i] = tangential(traction_.accepted(), i).norm();
+    walls.shear[i] = tangential(traction_.now(), i).norm();
+  }
+  return walls;
+}
+
 void FrictionalContact::accepted() {
-  if (rate_and_state_) rate_and_state_->accepted(slips());
+  if (rate_and_state_) rate_and_state_->accepted(slipping_walls());
+  passed_.clear();
 }
 
 void FrictionalContact::save(std::map<std::string, Vector>& state) const {
@@ -215,6 +225,7 @@ std::optional<StepTooLong> FrictionalContact::too_long(const StepTime& step) con
 
 void FrictionalContact::set_shear_modulus(const Vector& modulus) {
   SPREKK_EXPECT(modulus.size() == mesh_.fracture_cell_count(), modulus.size());
+  shear_modulus_ = modulus;
   if (rate_and_state_) rate_and_state_->set_shear_modulus(modulus);
 }
 

@@ -20,6 +20,7 @@
 #include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/assembly/softening.hpp"
+#include "framework/assembly/tells_events.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/limits_step.hpp"
 
@@ -27,6 +28,7 @@ namespace sprekk::contact {
 
 class Closure;
 class RateAndStateWalls;
+struct SlippingWalls;
 struct Options;
 
 /// Unknown: the contact traction f of every fracture cell, (normal, tangential), from the jump [u] across it. In space
@@ -73,6 +75,7 @@ class FrictionalContact : public Component,
                           public HeedsStages,
                           public LivesInPart,
                           public Softening,
+                          public TellsEvents,
                           public LimitsStep {
  public:
   /// `stiffness_factor`: the stiffness of the springs between the walls over that of the rock against a jump of the
@@ -124,7 +127,10 @@ class FrictionalContact : public Component,
   /// The slip of cells that slip, and the opening of cells that part against their tensile strength.
   FreeValues free_values() const override;
   std::string tell_loss(const LossOfStability& loss) const override;
-  void note_passed(const std::string& told, Notes& notes) const override;
+  void note_passed(const std::string& told, Notes& notes) override;
+  /// Fast slip, where friction depends on the rate; else motion that has run away (runaway.cpp).
+  std::vector<Quantity> event_figures() const override;
+  std::vector<Event> events(const StepTime& step) const override;
   double longest_step(double start) const override;
   std::optional<StepTooLong> too_long(const StepTime& step) const override;
 
@@ -160,6 +166,7 @@ class FrictionalContact : public Component,
   /// The traction that friction of rate and state gives for the trial.
   Trial::AtRate at_rate(int cell, const Trial& trial) const;
   Vector slips() const;  ///< m, now, along the tangents of each cell
+  SlippingWalls slipping_walls() const;
   /// The change of length of the springs, m, which adds to the gap: negative where they are pressed together. Zero with
   /// Multiplier::last, since the traction at which they carry nothing is the one of the present iterate.
   double overlap(int cell) const;
@@ -214,6 +221,8 @@ class FrictionalContact : public Component,
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
   double slip_at_start_ = 0;                 ///< m, the largest, of the state that was settled
+  std::string passed_;                       ///< what is told of a loss of stability that this step has passed
+  Vector shear_modulus_;                     ///< Pa, of the rock beside each cell; empty where it is not known
   bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction
   std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in observe_iterate
   bool is_without_shortcuts_ = false;        ///< after Newton's method has failed

@@ -112,14 +112,25 @@ std::optional<StepTooLong> RateAndStateWalls::too_long(const Vector& slip, const
                                  to_text(mesh_.fracture_cells[place].center), slip_rate(place))};
 }
 
-SlipEvents::Step RateAndStateWalls::step_of_events(const Vector& slip) const {
-  return {step_.start, step_.end, slip, rates_of_cells(), shear_modulus_};
+SlipEvents::Step RateAndStateWalls::step_of_events(const SlippingWalls& walls) const {
+  return {step_.start, step_.end, walls, rates_of_cells(), shear_modulus_};
 }
 
-void RateAndStateWalls::accepted(const Vector& slip) { events_.accept(step_of_events(slip)); }
+void RateAndStateWalls::accepted(const SlippingWalls& walls) { events_.accept(step_of_events(walls)); }
 
-void RateAndStateWalls::report(const std::string& name, const Vector& slip, std::vector<Quantity>& quantities) const {
-  const SlipEvents::Step step = step_of_events(slip);
+std::vector<Event> RateAndStateWalls::events(const std::string& name, const SlippingWalls& walls) const {
+  const SlipEvents::Step step = step_of_events(walls);
+  if (!events_.ends_with(step)) return {};
+  const SlipEvents::Event event = events_.after(step);
+  std::vector<Quantity> figures = figures_of(event.rupture);
+  figures.push_back({"slip_rate", "m/s", event.peak_slip_rate});
+  return {{"slip", name, event.begin, event.end, event.rupture.place, std::move(figures),
+           "slip is slower than " + quantity_text(options_.event_slip_rate, "m/s") + " again"}};
+}
+
+void RateAndStateWalls::report(const std::string& name, const SlippingWalls& walls,
+                               std::vector<Quantity>& quantities) const {
+  const SlipEvents::Step step = step_of_events(walls);
   quantities.push_back({name + ".largest_slip_rate", "m/s", step.slip_rate.maxCoeff()});
   SlipEvents::report(name, events_.after(step), quantities);
 }
@@ -138,7 +149,7 @@ void RateAndStateWalls::note_input(const std::string& name, Notes& notes) const 
                   "'radiation_damping') add radiation_damping: {wave_speed: ...} to 'rate_and_state'");
 }
 
-void RateAndStateWalls::note_step(const std::string& name, const Vector& traction, const Vector& slip,
+void RateAndStateWalls::note_step(const std::string& name, const Vector& traction, const SlippingWalls& walls,
                                   Notes& notes) const {
   constexpr double resolved = 1.0 / 3;  // of L_b, the length over which slip concentrates (Rubin and Ampuero 2005)
   double coarsest = 0;
@@ -158,14 +169,16 @@ void RateAndStateWalls::note_step(const std::string& name, const Vector& tractio
                     "slip one by one: the answer is that of the mesh) refine the fracture",
                     name, to_text(mesh_.fracture_cells[place].center), coarsest, resolved),
         coarsest);
-  const SlipEvents::Event event = events_.after(step_of_events(slip));
-  if (events_.latest().goes_on && !event.goes_on)
-    notes.add(name + " events",
-              fmt::format("slip of '{}' was faster than {} from {:.8g} s to {:.8g} s (event {}: moment {:.4g} N m for "
-                          "each m of depth, {:.4g} m long, {:.3g} m/s at most) all events are in history.csv",
-                          name, quantity_text(options_.event_slip_rate, "m/s"), event.begin, event.end, event.count,
-                          event.moment, event.length, event.peak_slip_rate),
-              event.moment);
+  const SlipEvents::Step step = step_of_events(walls);
+  if (!events_.ends_with(step)) return;
+  const SlipEvents::Event event = events_.after(step);
+  notes.add(name + " events",
+            fmt::format("slip of '{}' was faster than {} from {:.8g} s to {:.8g} s (event {}: moment {:.4g} {}, {:.4g} "
+                        "{}, {:.3g} m/s at most) all events are in events.csv",
+                        name, quantity_text(options_.event_slip_rate, "m/s"), event.begin, event.end, event.count,
+                        event.rupture.moment, dimension == 2 ? "N m for each m of depth" : "N m", event.rupture.size,
+                        dimension == 2 ? "m long" : "m^2 large", event.peak_slip_rate),
+            event.rupture.moment);
 }
 
 void RateAndStateWalls::save(const std::string& name, std::map<std::string, Vector>& state) const {

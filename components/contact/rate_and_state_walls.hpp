@@ -11,6 +11,7 @@
 #include "components/contact/laws/rate_and_state_options.hpp"
 #include "components/contact/slip_events.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/assembly/tells_events.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/limits_step.hpp"
 
@@ -27,7 +28,10 @@ class RateAndStateWalls {
 
   /// Throws DataError where a friction f_0 is zero.
   void evaluate_data(const Property& friction) const;
-  void begin_step(const StepTime& step) { step_ = step; }
+  void begin_step(const StepTime& step, const SlippingWalls& walls) {
+    step_ = step;
+    events_.begin_step(walls);
+  }
   /// Whether a step has begun. Before the first step there is no slip rate to solve for.
   bool has_step() const { return step_.dt > 0; }
 
@@ -47,12 +51,14 @@ class RateAndStateWalls {
   /// Whether the step, whose slips (m) are given, was too long for the rates or slips at its end, for LimitsStep.
   std::optional<StepTooLong> too_long(const Vector& slip, const StepTime& step) const;
 
-  void accepted(const Vector& slip);
-  void report(const std::string& name, const Vector& slip, std::vector<Quantity>& quantities) const;
+  void accepted(const SlippingWalls& walls);
+  void report(const std::string& name, const SlippingWalls& walls, std::vector<Quantity>& quantities) const;
+  /// The event that ends with this step.
+  std::vector<Event> events(const std::string& name, const SlippingWalls& walls) const;
   void output(std::vector<OutputField>& fields) const;
   void note_input(const std::string& name, Notes& notes) const;
   /// `traction`: Pa, (normal, tangential) of each cell.
-  void note_step(const std::string& name, const Vector& traction, const Vector& slip, Notes& notes) const;
+  void note_step(const std::string& name, const Vector& traction, const SlippingWalls& walls, Notes& notes) const;
   void save(const std::string& name, std::map<std::string, Vector>& state) const;
   void restore(const std::string& name, const std::map<std::string, Vector>& state);
   void carry_over(const RateAndStateWalls& before) { events_.carry_over(before.events_); }
@@ -60,7 +66,7 @@ class RateAndStateWalls {
  private:
   RateAndStateLaw law(int cell, double friction) const;
   Vector rates_of_cells() const;
-  SlipEvents::Step step_of_events(const Vector& slip) const;
+  SlipEvents::Step step_of_events(const SlippingWalls& walls) const;
   double shear_modulus(int cell) const { return shear_modulus_.size() > 0 ? shear_modulus_[cell] : 0.0; }
 
   const Mesh& mesh_;

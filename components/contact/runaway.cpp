@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "components/contact/frictional_contact.hpp"
+#include "components/contact/rate_and_state_walls.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
@@ -122,7 +123,8 @@ std::string FrictionalContact::tell_loss(const LossOfStability& loss) const {
       weakening + loss.stiffness);
 }
 
-void FrictionalContact::note_passed(const std::string& told, Notes& notes) const {
+void FrictionalContact::note_passed(const std::string& told, Notes& notes) {
+  passed_ = told;
   double moved = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     if (is_on_fracture_cell(i))
@@ -131,6 +133,26 @@ void FrictionalContact::note_passed(const std::string& told, Notes& notes) const
             fmt::format("walls jump by {:.3g} m to another equilibrium, and real ones may come to rest elsewhere: {}",
                         moved, told),
             moved);
+}
+
+std::vector<Quantity> FrictionalContact::event_figures() const {
+  std::vector<Quantity> figures = figures_of(Rupture{});
+  if (rate_and_state_) figures.push_back({"slip_rate", "m/s", 0});
+  return figures;
+}
+
+std::vector<Event> FrictionalContact::events(const StepTime& step) const {
+  const SlippingWalls walls = slipping_walls();
+  if (rate_and_state_) return rate_and_state_->events(name(), walls);
+  if (passed_.empty()) return {};
+  Vector slip = walls.slip;
+  std::vector<char> slides(mesh_.fracture_cell_count());
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    slip.segment<dimension - 1>((dimension - 1) * i) -= tangential(jump_.accepted(), i);
+    slides[i] = is_on_fracture_cell(i) && state(i) == State::slip;
+  }
+  const Rupture rupture = rupture_of(mesh_, slip, walls.shear_before - walls.shear, shear_modulus_, slides);
+  return {{"runaway", name(), step.end, step.end, rupture.place, figures_of(rupture), passed_}};
 }
 
 }  // namespace sprekk::contact

@@ -5,9 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "components/contact/rupture.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::contact {
+
+/// Slip and shear traction of each fracture cell in a step.
+struct SlippingWalls {
+  Vector slip;                 ///< m, `dimension` − 1 of each cell, at the end
+  Vector shear_before, shear;  ///< Pa, size of the traction at the start and at the end
+};
 
 /// Records the events of a run. One begins with the first step at whose end a fracture cell slips faster than a rate,
 /// and lasts until the end of the first step at whose end none does. The slip of all steps of the event counts, of slow
@@ -16,8 +23,8 @@ class SlipEvents {
  public:
   /// A time step, with values of each fracture cell.
   struct Step {
-    double start, end;     ///< s
-    Vector slip;           ///< m, `dimension` − 1 of each cell, at the end
+    double start, end;  ///< s
+    SlippingWalls walls;
     Vector slip_rate;      ///< m/s, at the end
     Vector shear_modulus;  ///< Pa; empty where it is not known
   };
@@ -27,17 +34,20 @@ class SlipEvents {
     double count = 0;           ///< events that have begun
     double begin = 0;           ///< s
     double end = 0;             ///< s, the end of its last step so far
-    double moment = 0;          ///< N m per m of depth, sum of G |slip| |cell|
-    double length = 0;          ///< m, of the cells that have slipped faster than the rate
     double peak_slip_rate = 0;  ///< m/s
+    Rupture rupture;            ///< cells that have slipped faster than the rate take part
   };
 
   /// `rate`: the slip rate above which an event begins, m/s.
   SlipEvents(const ComponentContext& context, double rate);
 
+  /// To be called at the start of a step.
+  void begin_step(const SlippingWalls& walls);
   /// The latest event at the end of this step, which begins where the last accepted one has ended.
   Event after(const Step& step) const;
   const Event& latest() const { return latest_; }
+  /// Whether the event ends with this step.
+  bool ends_with(const Step& step) const { return latest_.goes_on && !after(step).goes_on; }
   /// To be called when the step has been accepted.
   void accept(const Step& step);
   static void report(const std::string& name, const Event& event, std::vector<Quantity>& quantities);
@@ -52,9 +62,10 @@ class SlipEvents {
   Vector peaks_after(const Step& step) const;
 
   const Mesh& mesh_;
-  double rate_;         ///< m/s
-  Field& slip_before_;  ///< m, slip before the current event
-  Field& peak_rate_;    ///< m/s, greatest in the current event
+  double rate_;          ///< m/s
+  Field& slip_before_;   ///< m, slip before the current event
+  Field& shear_before_;  ///< Pa, size of the shear traction before the current, or the last, event
+  Field& peak_rate_;     ///< m/s, greatest in the current event
   Event latest_;
 };
 

@@ -20,7 +20,7 @@ void FrictionalContact::report(std::vector<Quantity>& quantities) const {
   quantities.push_back({name() + ".cells_stick", "1", static_cast<double>(counts[0])});
   quantities.push_back({name() + ".cells_slip", "1", static_cast<double>(counts[1])});
   quantities.push_back({name() + ".cells_open", "1", static_cast<double>(counts[2])});
-  if (rate_and_state_) rate_and_state_->report(name(), slips(), quantities);
+  if (rate_and_state_) rate_and_state_->report(name(), slipping_walls(), quantities);
 }
 
 void FrictionalContact::output(std::vector<OutputField>& fields) const {
@@ -56,7 +56,7 @@ void FrictionalContact::note_step(Notes& notes, const StepTime&) const {
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
       springs.push_back(is_on_fracture_cell(i) ? compliance(i)[1] : 0);
   note_jumps(notes, name(), mesh_, {traction_, jump_, is_open, slides, options_->large_jump, slip_at_start_, springs});
-  if (rate_and_state_) rate_and_state_->note_step(name(), traction_.now(), slips(), notes);
+  if (rate_and_state_) rate_and_state_->note_step(name(), traction_.now(), slipping_walls(), notes);
 }
 
 void FrictionalContact::note_start(Notes& notes) const {

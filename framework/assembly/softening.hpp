@@ -46,7 +46,7 @@ class Softening {
   /// Where and why motion has run away, for the message that ends a run, at the values at which this has been found.
   virtual std::string tell_loss(const LossOfStability& loss) const = 0;
   /// Notes that the step which is about to be accepted has passed a loss, of which `told` tells.
-  virtual void note_passed(const std::string& told, Notes& notes) const = 0;
+  virtual void note_passed(const std::string& told, Notes& notes) = 0;
 };
 
 }  // namespace sprekk

@@ -22,6 +22,15 @@ std::vector<double> divided(std::vector<double> values, double scale) {
   return values;
 }
 
+/// Interrupts the line behind each point.
+void part(Curve& curve) {
+  for (std::size_t i = curve.x.size(); i > 0; --i) {
+    const auto behind = static_cast<std::ptrdiff_t>(i);
+    curve.x.insert(curve.x.begin() + behind, curve.x[i - 1]);
+    curve.y.insert(curve.y.begin() + behind, std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
 /// Whether both curves have the same values for more than half of the time steps.
 bool hides(const Curve& upper, const Curve& lower, double range) {
   if (upper.x != lower.x) return false;
@@ -58,9 +67,11 @@ Panel history_panel(const std::string& title, const std::string& unit, const std
   panel.title = title;
   panel.x_label = "time [" + time_unit.text + "]";
   panel.y_label = value_unit.text;
-  for (const HistoryCurve& curve : curves)
+  for (const HistoryCurve& curve : curves) {
     panel.curves.push_back({curve.name, divided(curve.times, time_unit.scale), divided(curve.values, value_unit.scale),
-                            curve.style, curve.times.size() <= marked_up_to});
+                            curve.style, curve.are_points || curve.times.size() <= marked_up_to});
+    if (curve.are_points) part(panel.curves.back());
+  }
   show_hidden(panel.curves);
   return panel;
 }

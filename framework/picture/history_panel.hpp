@@ -13,6 +13,7 @@ struct HistoryCurve {
   std::string name;
   std::vector<double> times, values;  ///< SI
   LineStyle style;
+  bool are_points = false;  ///< points that no line joins
 };
 
 /// A panel of curves that share the SI unit `unit`; few points are marked. A curve that covers another

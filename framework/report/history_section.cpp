@@ -59,11 +59,15 @@ void add(std::vector<Group>& groups, const std::string& unit, HistoryCurve curve
   groups.push_back({unit, largest, {std::move(curve)}});
 }
 
-std::vector<Panel> panels(const std::vector<Group>& groups) {
+std::vector<Panel> panels(const std::vector<Group>& groups, const CsvTable& events) {
   std::vector<Panel> result;
-  for (const Group& group : groups) {
+  for (Group group : groups) {
+    HistoryCurve points = event_points();
+    for (const HistoryCurve& curve : group.curves)
+      add_event_points(points, events, curve.name.substr(0, curve.name.rfind('.')), curve);
     std::string title = group.curves.front().name;
     if (group.curves.size() > 1) title += ", …";
+    if (!points.times.empty()) group.curves.push_back(std::move(points));
     result.push_back(history_panel(title, group.unit, group.curves));
   }
   return result;
@@ -100,8 +104,9 @@ std::string history_section(const RunResults& results) {
     add(is_probe ? probed : reported, name.unit, {name.quantity, times, values, {}});
   }
   std::string text;
-  if (!probed.empty()) text += "<h3>Probes</h3>\n" + html_panels(panels(probed));
-  if (!reported.empty()) text += "<h3>Reported by the components</h3>\n" + html_panels(panels(reported));
+  if (!probed.empty()) text += "<h3>Probes</h3>\n" + html_panels(panels(probed, results.events));
+  if (!reported.empty())
+    text += "<h3>Reported by the components</h3>\n" + html_panels(panels(reported, results.events));
   return html_section("history", "Against time", text);
 }
 
@@ -114,6 +119,7 @@ std::string tip_section(const RunResults& results) {
   struct TipGroup {
     std::string title, unit;
     std::vector<HistoryCurve> curves;
+    HistoryCurve events;
   };
   std::vector<TipGroup> groups;
   for (const ThingColumn& column : columns) {
@@ -121,15 +127,19 @@ std::string tip_section(const RunResults& results) {
     const std::string title = is_alone ? column.quantity : column.thing;
     auto group = std::find_if(groups.begin(), groups.end(),
                               [&](const TipGroup& other) { return other.title == title && other.unit == column.unit; });
-    if (group == groups.end()) group = groups.insert(groups.end(), {title, column.unit, {}});
+    if (group == groups.end()) group = groups.insert(groups.end(), {title, column.unit, {}, event_points()});
     group->curves.push_back({is_alone ? column.thing : column.quantity, times, results.history.numbers(column.column),
                              line_style(static_cast<int>(group->curves.size()))});
+    add_event_points(group->events, results.events, column.thing, group->curves.back());
   }
   std::stable_sort(groups.begin(), groups.end(), [&](const TipGroup& a, const TipGroup& b) {
     return quantities[a.unit].size() > quantities[b.unit].size();
   });
   std::vector<Panel> drawn;
-  for (const TipGroup& group : groups) drawn.push_back(history_panel(group.title, group.unit, group.curves));
+  for (TipGroup& group : groups) {
+    if (!group.events.times.empty()) group.curves.push_back(std::move(group.events));
+    drawn.push_back(history_panel(group.title, group.unit, group.curves));
+  }
   return html_section("tips", "By tip, side and other place", html_panels(drawn));
 }
 

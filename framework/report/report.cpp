@@ -12,6 +12,7 @@ namespace {
 const SectionTitles sections = {{"summary", "Summary"},
                                 {"history", "Against time"},
                                 {"tips", "By tip, side and other place"},
+                                {"events", "Events"},
                                 {"maps", "Fields"},
                                 {"fractures", "Along the fractures"},
                                 {"convergence", "Convergence"},
@@ -24,8 +25,8 @@ std::string report_page(const RunResults& results) {
   const auto record = nlohmann::json::parse(results.record);
   const std::string name = record.value("/scene/name"_json_pointer, std::string("run"));
   const std::string body = summary_section(results) + history_section(results) + tip_section(results) +
-                           map_section(results) + fracture_section(results) + convergence_section(results) +
-                           effort_section(results) + parameter_section(results);
+                           events_section(results) + map_section(results) + fracture_section(results) +
+                           convergence_section(results) + effort_section(results) + parameter_section(results);
   return html_page(name, sections, body);
 }
 

@@ -47,6 +47,7 @@ RunResults read_results(const fs::path& folder) {
     throw InputError({record.string()}, "this is not the record of a run", "it is damaged, or another file");
   results.history = CsvTable::read(folder / "history.csv");
   results.coupling = CsvTable::read(folder / "coupling.csv");
+  results.events = CsvTable::read(folder / "events.csv");
   const std::vector<Snapshot> matrix = index(results, "matrix.pvd"), fractures = index(results, "fractures.pvd"),
                               paths = index(results, "paths.pvd");
   results.written_count = matrix.size();

@@ -22,7 +22,7 @@ struct RunResults {
 
   std::filesystem::path folder;
   std::string record;  ///< run.json
-  CsvTable history, coupling;
+  CsvTable history, coupling, events;
   std::vector<Written> written;       ///< at most `most_times` of the written times
   std::size_t written_count = 0;      ///< the number of all written times
   std::vector<DrawnEdge> edges;       ///< of the box around the body, at the last of these times

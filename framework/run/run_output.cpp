@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
+#include <limits>
 #include <utility>
 
 #include "framework/config/input_error.hpp"
@@ -16,7 +18,9 @@ namespace sprekk {
 
 namespace {
 
-const std::string rows_of_tables = "rows of tables";  // in a checkpoint: of history.csv, of coupling.csv
+const std::string rows_of_tables = "rows of tables";  // in a checkpoint: of table_files
+constexpr std::array<const char*, 3> table_files = {"history.csv", "coupling.csv",
+                                                    "events.csv"};  // by RunOutput::Table
 
 /// Only the first process touches files; all of them throw when it does.
 template <class Work>
@@ -34,13 +38,6 @@ void on_first_process(const Work& work) {
   if (has_failed) throw InputError("the first process could not open the output folder");
 }
 
-std::optional<long> history_rows(const std::optional<RunOutput::Rows>& rows) {
-  return rows ? std::optional(rows->history) : std::nullopt;
-}
-std::optional<long> coupling_rows(const std::optional<RunOutput::Rows>& rows) {
-  return rows ? std::optional(rows->coupling) : std::nullopt;
-}
-
 void require_unused(const std::filesystem::path& folder) {
   if (OutputFolder::holds_results(folder))
     throw InputError("the output folder " + folder.string() +
@@ -52,8 +49,9 @@ void require_unused(const std::filesystem::path& folder) {
 RunOutput::Continued RunOutput::continued(const Checkpoint& checkpoint, double time) {
   Continued from{time, std::nullopt};
   const auto rows = checkpoint.extra.find(rows_of_tables);
-  if (rows != checkpoint.extra.end() && rows->second.size() == 2)
-    from.rows = Rows{static_cast<long>(rows->second[0]), static_cast<long>(rows->second[1])};
+  if (rows == checkpoint.extra.end() || rows->second.size() != std::ssize(Rows{})) return from;
+  from.rows.emplace();
+  std::ranges::transform(rows->second, from.rows->begin(), [](double count) { return static_cast<long>(count); });
   return from;
 }
 
@@ -68,16 +66,14 @@ void RunOutput::open(const std::optional<Continued>& from, const std::vector<Fra
 void RunOutput::start_writing(const std::optional<Continued>& from, const std::vector<FrameOutputChoice>& outputs) {
   const std::filesystem::path folder = folder_.create();
   if (!lock_) lock_.emplace(folder);
-  if (from) {
-    history_ = TableWriter::continued(folder / "history.csv", from->time, history_rows(from->rows));
-    coupling_ = TableWriter::continued(folder / "coupling.csv", from->time, coupling_rows(from->rows));
-  } else {
-    require_unused(folder);
-    history_.emplace(folder / "history.csv");
-    coupling_.emplace(folder / "coupling.csv");
+  if (!from) require_unused(folder);
+  for (std::size_t i = 0; i < table_files.size(); ++i) {
+    const std::filesystem::path file = folder / table_files[i];
+    const auto rows = from && from->rows ? std::optional((*from->rows)[i]) : std::nullopt;
+    tables_.push_back(from ? TableWriter::continued(file, from->time, rows) : TableWriter(file));
   }
   // Before its first step a run has written no more than the start, which it writes again.
-  const bool goes_on = from && (!from->rows || from->rows->history > 0);
+  const bool goes_on = from && (!from->rows || (*from->rows)[history] > 0);
   const OutputPlace place{folder, goes_on ? std::optional(from->time) : std::nullopt};
   for (const FrameOutputChoice& output : outputs) outputs_.push_back(output.build(place));
 }
@@ -86,20 +82,38 @@ void RunOutput::write_history(const StepTime& step, int iterations, const std::v
   if (!parallel::is_root()) return;
   TableWriter::Row row{{"step[s]", step.dt}, {"iterations[1]", static_cast<double>(iterations)}};
   for (const Quantity& quantity : quantities) row.emplace_back(labelled(quantity.name, quantity.unit), quantity.value);
-  history_->append(step.end, row);
+  tables_[history].append(step.end, row);
+}
+
+void RunOutput::write_events(const StepTime& step, const std::vector<Event>& events,
+                             const std::vector<Quantity>& figures) {
+  if (!parallel::is_root()) return;
+  for (const Event& event : events) {
+    TableWriter::Row row{{"kind", event.kind},
+                         {"thing", event.thing},
+                         {"begin[s]", event.begin},
+                         {"duration[s]", event.end - event.begin}};
+    for (int i = 0; i < dimension; ++i) row.emplace_back(labelled(std::string(1, "xyz"[i]), "m"), event.place[i]);
+    for (const Quantity& known : figures) {
+      const auto found = std::ranges::find(event.figures, known.name, &Quantity::name);
+      row.emplace_back(labelled(known.name, known.unit),
+                       found == event.figures.end() ? std::numeric_limits<double>::quiet_NaN() : found->value);
+    }
+    row.emplace_back("reason", event.reason);
+    tables_[RunOutput::events].append(step.end, row);
+  }
 }
 
 void RunOutput::note_losses(Notes& notes) const {
   const auto note = [&](const std::string& loss) {
     if (!loss.empty()) notes.add(loss.substr(0, loss.find(',')), loss);
   };
-  for (const std::optional<TableWriter>* table : {&history_, &coupling_})
-    if (*table) note((*table)->loss());
+  for (const TableWriter& table : tables_) note(table.loss());
   for (const auto& output : outputs_) note(output->loss());
 }
 
 void RunOutput::write_iteration(const IterationRecord& record, const std::vector<std::string>& equations) {
-  if (!parallel::is_root() || !coupling_) return;
+  if (tables_.empty()) return;
   TableWriter::Row row = {{"step[s]", record.time.dt},
                           {"schedule", record.step},
                           {"iteration[1]", static_cast<double>(record.iteration)},
@@ -114,10 +128,10 @@ void RunOutput::write_iteration(const IterationRecord& record, const std::vector
     row.emplace_back("residual." + name + "[1]", is_solved ? fmt::format("{:.3g}", found->second) : std::string());
   }
   // A table that an older version has begun has fewer columns.
-  const std::vector<std::string>& known = coupling_->columns();
+  const std::vector<std::string>& known = tables_[coupling].columns();
   if (!known.empty())
     std::erase_if(row, [&](const auto& entry) { return std::ranges::count(known, entry.first) == 0; });
-  coupling_->append(record.time.end, row);
+  tables_[coupling].append(record.time.end, row);
 }
 
 void RunOutput::write_frame(double time, int step, const Model& model, const std::vector<OutputField>& fields) {
@@ -128,7 +142,11 @@ void RunOutput::write_frame(double time, int step, const Model& model, const std
   for (const auto& output : outputs_) output->write(frame);
 }
 
-RunOutput::Rows RunOutput::rows() const { return {history_ ? history_->rows() : 0, coupling_ ? coupling_->rows() : 0}; }
+RunOutput::Rows RunOutput::rows() const {
+  Rows rows{};
+  for (std::size_t i = 0; i < tables_.size(); ++i) rows[i] = tables_[i].rows();
+  return rows;
+}
 
 void RunOutput::write_checkpoint(const Model& model, const Notes& notes, const Rows& rows,
                                  std::map<std::string, Vector> extra, const std::string& fingerprint) {
@@ -141,8 +159,9 @@ void RunOutput::write_checkpoint(const Model& model, const Notes& notes, const R
   checkpoint.mesh = model.mesh();
   checkpoint.fields = field_values(model.fields());
   checkpoint.extra = std::move(extra);
-  checkpoint.extra[rows_of_tables] =
-      Eigen::Vector2d(static_cast<double>(rows.history), static_cast<double>(rows.coupling));
+  Vector& counts = checkpoint.extra[rows_of_tables];
+  counts.resize(std::ssize(rows));
+  std::ranges::copy(rows, counts.begin());
   sprekk::write_checkpoint(checkpoint_path(), checkpoint);
 }
 

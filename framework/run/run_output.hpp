@@ -1,10 +1,13 @@
 // Everything that a run writes into its folder. Does nothing on processes other than the first.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "framework/assembly/tells_events.hpp"
 #include "framework/frame_output/registry.hpp"
 #include "framework/output/checkpoint.hpp"
 #include "framework/output/output_folder.hpp"
@@ -24,10 +27,9 @@ class RunOutput {
   /// For a run that is continued: locks the folder against other runs. Throws InputError when another run has locked
   /// it. Collective.
   void lock();
-  /// Numbers of rows of the tables.
-  struct Rows {
-    long history, coupling;
-  };
+  /// The tables, and their numbers of rows.
+  enum Table { history, coupling, events };
+  using Rows = std::array<long, 3>;
   /// The point from which a run is continued: time and rows of the tables when the checkpoint was written.
   struct Continued {
     double time;               ///< s
@@ -39,6 +41,8 @@ class RunOutput {
   /// locked the folder, or when a table is missing. Collective.
   void open(const std::optional<Continued>& from, const std::vector<FrameOutputChoice>& outputs);
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
+  /// `figures`: all that events of this scene may have; the table appears with the first event.
+  void write_events(const StepTime& step, const std::vector<Event>& events, const std::vector<Quantity>& figures);
   /// Tells which tables somebody has removed; the run goes on with new ones.
   void note_losses(Notes& notes) const;
   /// `equations`: the names of all that have a column.
@@ -60,7 +64,7 @@ class RunOutput {
 
   OutputFolder folder_;
   std::optional<RunLock> lock_;
-  std::optional<TableWriter> history_, coupling_;
+  std::vector<TableWriter> tables_;                    ///< by Table; empty on all but the first process
   std::vector<std::unique_ptr<FrameOutput>> outputs_;  ///< empty on all but the first process
 };
 

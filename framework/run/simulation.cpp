@@ -183,6 +183,14 @@ void Simulation::accept(const StepTime& step, const StepStatus& status) {
   state_.notes.at_time(step.end);
   for (const Part* part : model.parts()) part->note_step(state_.notes, step);
   model.schedule().note_step(state_.notes, step);
+  std::vector<Event> events;
+  std::vector<Quantity> event_figures;
+  for (const TellsEvents* part : parts_with<TellsEvents>(model.parts())) {
+    std::ranges::move(part->events(step), std::back_inserter(events));
+    for (const Quantity& figure : part->event_figures())
+      if (std::ranges::find(event_figures, figure.name, &Quantity::name) == event_figures.end())
+        event_figures.push_back(figure);
+  }
   state_.balance.note_step(model.balances(), model.schedule().largest_imbalance(), state_.notes);
   early_end_.check(model, step, quantities);
   const bool writes_frame = writes_frames_ && (early_end_.is_reached() || output_times_.contains(step.end));
@@ -203,6 +211,7 @@ void Simulation::accept(const StepTime& step, const StepStatus& status) {
   recorder_.note_splitting_errors(splitting_error.of_fields());
   const ScopedTimer timer(profile_, "output");
   output_.write_history(step, status.iterations, quantities);
+  output_.write_events(step, events, event_figures);
   output_.note_losses(state_.notes);
   if (writes_frame) output_.write_frame(step.end, state_.controller.steps(), model, fields);
 }
@@ -221,6 +230,7 @@ void Simulation::finish(ExitCode code) {
   recorder_.end(code, reason_, state_.model->scene(), early_end_);
   recorder_.add(growth_);
   effort_.finish(*state_.model, recorder_.record(), profile_);
+  if (const long events = output_.rows()[RunOutput::events]; events > 0) recorder_.record().counters["events"] = events;
   recorder_.close(state_.notes, profile_);
   output_.write_record(recorder_.record(), profile_);
   report_end(recorder_.record(), profile_, state_, output_, options_.quiet);

@@ -62,10 +62,10 @@ std::optional<CondensedUnknowns> Newton::condensed_to(const FreeValues& values) 
 }
 
 std::optional<Newton::Loss> Newton::find_loss(double time) {
-  std::vector<std::pair<const Softening*, FreeValues>> free;
+  std::vector<std::pair<Softening*, FreeValues>> free;
   CondensedUnknowns all;
-  for (const Part* part : parts_) {
-    const auto* softening = dynamic_cast<const Softening*>(part);
+  for (Part* part : parts_) {
+    auto* softening = dynamic_cast<Softening*>(part);
     if (!softening) continue;
     FreeValues values = softening->free_values();
     const std::optional<CondensedUnknowns> unknowns = condensed_to(values);

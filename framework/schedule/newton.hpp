@@ -126,8 +126,8 @@ class Newton {
   StepStatus release_coefficients(const StepTime& step, const std::vector<Vector>& start);
   /// Motion that runs away.
   struct Loss {
-    const Softening* part;  ///< whose places move
-    double time;            ///< s
+    Softening* part;  ///< whose places move
+    double time;      ///< s
     std::string told;
   };
   /// Whether the free values of all parts have lost their stability, also over the shortest time. The derivatives of

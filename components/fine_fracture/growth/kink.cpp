@@ -147,18 +147,20 @@ double log_slope_of_kink(const Sifs& sifs, double length) {
   return std::log(load_after_kink(sifs, longer) / load_after_kink(sifs, length)) / (longer - length);
 }
 
-double largest_release_angle(const Sifs& sifs, double limit) {
+double largest_release_angle(const Sifs& sifs, double limit, const std::function<double(double)>& resistance) {
   SPREKK_EXPECT(is_finite(sifs), sifs.k1, sifs.k2, sifs.t_stress);
   SPREKK_EXPECT(limit > 0 && limit <= pi, limit);
-  if (sifs.k2 == 0) return 0;
+  if (sifs.k2 == 0 && !resistance) return 0;
   const auto release = [&](double angle) {
     const Sifs kink = after_kink(sifs, angle);
-    return kink.k1 > 0 ? kink.k1 * kink.k1 + kink.k2 * kink.k2 : 0;
+    const double held = resistance ? resistance(angle) : 1;
+    return kink.k1 > 0 ? (kink.k1 * kink.k1 + kink.k2 * kink.k2) / (held * held) : 0;
   };
   constexpr int steps = 64;  // parts of the limit among which the largest release is looked for
   const double step = -std::copysign(limit / steps, sifs.k2);
+  const int first = resistance ? -steps : 0;
   int best = 0;
-  for (int i = 1; i <= steps; ++i)
+  for (int i = first; i <= steps; ++i)
     if (release(i * step) > release(best * step)) best = i;
   if (release(best * step) == 0) return 0;
   // The release is smooth: its slope, by central differences, changes its sign beside the best of them.
@@ -166,7 +168,7 @@ double largest_release_angle(const Sifs& sifs, double limit) {
   const auto rises = [&](double angle) {
     return release(angle + std::copysign(difference, step)) > release(angle - std::copysign(difference, step));
   };
-  double low = std::max(0, best - 1) * step, high = std::min(steps, best + 1) * step;
+  double low = std::max(first, best - 1) * step, high = std::min(steps, best + 1) * step;
   constexpr int halvings = 60;  // more than a double tells apart
   for (int i = 0; i < halvings; ++i) (rises((low + high) / 2) ? low : high) = (low + high) / 2;
   return (low + high) / 2;

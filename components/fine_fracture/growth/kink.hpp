@@ -1,6 +1,8 @@
 // Stress intensity factors at the end of a short straight kink, from those of the tip before it kinks.
 #pragma once
 
+#include <functional>
+
 #include "components/fine_fracture/growth/mixed_mode.hpp"
 
 namespace sprekk::fine_fracture {
@@ -35,7 +37,10 @@ double log_slope_of_kink(const Sifs& sifs, double length);
 
 /// The angle (rad, at most `limit` in size) of the infinitesimal kink that releases most energy, k_1^2 + k_2^2, of
 /// those that open, k_1 > 0, and turn away from K_II; 0 where none does. In pure mode II 75.8 degrees by the series of
-/// Amestoy and Leblond; K_II vanishes at 77.3, and the tangential stress is largest at 70.5.
-double largest_release_angle(const Sifs& sifs, double limit = 1.5);
+/// Amestoy and Leblond; K_II vanishes at 77.3, and the tangential stress is largest at 70.5. `resistance`: the
+/// toughness for a kink of this angle over that straight ahead; with it, of the kinks to both sides, that with the
+/// largest (k_1^2 + k_2^2)/resistance^2.
+double largest_release_angle(const Sifs& sifs, double limit = 1.5,
+                             const std::function<double(double)>& resistance = {});
 
 }  // namespace sprekk::fine_fracture

@@ -80,7 +80,7 @@ bool Tips::is_far_above() const {
 bool Tips::turns_sharply(const Tip& tip) const {
   constexpr double sharp = 0.5;  // rad
   return tip.now.is_extendable && tip.now.is_evaluated && tip.now.load > 1 && tip.taken_over != examined_ &&
-         std::abs(maximum_tangential_angle(tip.now.sifs)) > sharp;
+         std::abs(maximum_tangential_angle(felt(tip))) > sharp;
 }
 
 }  // namespace sprekk::fine_fracture

@@ -58,6 +58,7 @@ bool TipsFront::retreat() {
 }
 
 std::string TipsFront::why_it_ends() const {
+  if (jump_->drop()) return "comes to rest where its load drops";
   if (jump_->verdict() == Front::Verdict::found) return "comes to rest";
   return jump_->is_left() ? "stops where it could not be followed further" : "has gone as far as it may in one step";
 }
@@ -72,16 +73,28 @@ FrontSearch::Verdict TipsFront::end_jump() {
     const LameParameters lame = tips_.surroundings_->stiffness(at_start_[i].anchor);
     const double toughness = at_start_[i].toughness;
     const double energy = record.surplus * toughness * toughness / Elasticity{lame.lambda, lame.shear}.plane_modulus();
+    // What the fine level has grown alone in this step, before the mesh followed, is no part of it.
+    const double alone = at_start_[i].first_length > 0 ? at_start_[i].first_length - at_start_[i].least : 0;
+    const double from = tips_.tips_[i].length_at_start + alone, to = from + record.advance;
+    const char* const why_it_begins = record.is_unstable ? "its load rises with its length: growth is unstable"
+                                                         : "its load does not fall to the toughness nearby";
+    const Event event{"jump",
+                      name,
+                      0,
+                      0,
+                      Point::Zero(),
+                      {{"from", "m", from},
+                       {"to", "m", to},
+                       {"largest_load", "1", record.largest_load},
+                       {"surplus_energy", "J/m", energy}},
+                      fmt::format("{}; it {}", why_it_begins, why_it_ends())};
     notes_.push_back(
         {name + " jumps",
-         fmt::format(
-             "{} jumps from {:.4g} mm to {:.4g} mm of growth in no time, with the fluid that there is ({}), and "
-             "{}; K_eq/K_IC is up to {:.4g} on the way, and {:.3g} J/m of energy are left over",
-             name, 1e3 * tips_.tips_[i].length_at_start, 1e3 * (tips_.tips_[i].length_at_start + record.advance),
-             record.is_unstable ? "its load rises with its length: growth is unstable"
-                                : "its load does not fall to the toughness nearby",
-             why_it_ends(), record.largest_load, energy),
-         energy});
+         fmt::format("{} jumps from {:.4g} mm to {:.4g} mm of growth in no time, with the fluid that there "
+                     "is ({}), and {}; K_eq/K_IC is up to {:.4g} on the way, and {:.3g} J/m of energy are "
+                     "left over",
+                     name, 1e3 * from, 1e3 * to, why_it_begins, why_it_ends(), record.largest_load, energy),
+         energy, event});
   }
   if (const auto& drop = jump_->drop())
     notes_.push_back({tips_.name() + " rests where its load drops",

@@ -74,10 +74,15 @@ void Tips::leave_last_segment(Tip& tip, const TipPath& path) {
 
 std::vector<TipOutcome> Tips::find_outcomes() {
   std::vector<GrowingTip> growing;
-  std::vector<double> at_start;  // Pa m^0.5, K_IC of each tip; the search gets K scaled to this toughness
-  const auto over_start = [&](int tip, const TipPath& path) {
-    return toughness(tips_[tip].end, position(tips_[tip], path)) / at_start[tip];
+  std::vector<double> at_start;            // Pa m^0.5, K_IC of each tip; the search gets K scaled to this toughness
+  using TakenFor = std::pair<Sifs, Sifs>;  // factors as the search takes them, and as they are
+  std::vector<std::vector<TakenFor>> seen(tips_.size());
+  const auto as_they_are = [&](std::size_t tip, const Sifs& taken) {
+    const auto found = std::ranges::find_if(
+        seen[tip], [&](const TakenFor& pair) { return pair.first.k1 == taken.k1 && pair.first.k2 == taken.k2; });
+    return found != seen[tip].end() ? found->second : taken;
   };
+  const auto over_start = [&](int tip, const TipPath& path) { return toughness(tips_[tip], path) / at_start[tip]; };
   for (const Tip& tip : tips_) {
     const LameParameters lame = surroundings_->stiffness(position(tip, {}));
     // A tip that the mesh follows has its own search; here it stays.
@@ -95,16 +100,17 @@ std::vector<TipOutcome> Tips::find_outcomes() {
       // What others grow here counts for a tip that the mesh follows from the next step on. Otherwise the topology of
       // its fine level would change from trial to trial, and its factors with it.
       [&](int tip, const std::vector<TipPath>& paths) {
-        return is_followed(tips_[tip]) ? tips_[tip].now.sifs
-                                       : times(evaluate(tip, paths), 1 / over_start(tip, paths[tip]));
+        if (is_followed(tips_[tip])) return tips_[tip].now.sifs;
+        const Sifs sifs = evaluate(tip, paths);
+        seen[tip].emplace_back(times(felt(tips_[tip], paths[tip], sifs), 1 / over_start(tip, paths[tip])), sifs);
+        return seen[tip].back().first;
       },
       [this](int tip, const TipPath& path, const Point& to) {
         return tips_[tip].now.is_stopped ? 0 : free_distance(tips_[tip], path, to);
       },
       [this](int tip, int other) { return is_near(tips_[tip], tips_[other]); });
   for (std::size_t i = 0; i < tips_.size(); ++i)
-    if (!is_followed(tips_[i]))
-      outcomes[i].end = times(outcomes[i].end, over_start(static_cast<int>(i), outcomes[i].path));
+    for (Sifs* sifs : {&outcomes[i].start, &outcomes[i].end}) *sifs = as_they_are(i, *sifs);
   return outcomes;
 }
 

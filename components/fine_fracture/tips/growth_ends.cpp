@@ -11,8 +11,9 @@ namespace sprekk::fine_fracture {
 
 void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) {
   const GrowthOptions& growth = options_.growth;
-  const double k_eq = equivalent_sif(outcome.end) / toughness(tip), excess = k_eq - 1;
-  const double shear = outcome.end.k2 / outcome.end.k1;
+  const Sifs end = felt(tip, outcome.path, outcome.end);
+  const double k_eq = equivalent_sif(end) / toughness(tip), excess = k_eq - 1;
+  const double shear = end.k2 / end.k1;
   const bool has_grown = outcome.increments > 0;
   // Twice and three times the tolerances: the length and the direction of the last increment may be off by that, and by
   // a rest that is shorter than the shortest increment.
@@ -28,7 +29,7 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
   const bool waits = growth.seeks_arrest() && !has_grown && excess > growth.arrest_tolerance;
   // A tip that is hardly loaded has no direction.
   const bool is_sheared = growth.is_implicit() && has_grown && k_eq > growth.direction_tolerance &&
-                          !(std::abs(outcome.end.k2) <= most_shear * outcome.end.k1);
+                          !(std::abs(end.k2) <= most_shear * end.k1);
   if (!is_off && !is_sheared && !is_blocked && !waits) return;
   std::string why = outcome.reason;
   for (const std::string& note : outcome.notes) why += "; " + note;
@@ -61,6 +62,24 @@ void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) 
     notes_.push_back({name + " has grown into shear",
                       fmt::format("{} has grown to an end that is {} try a smaller 'growth.increment'", name, state),
                       std::abs(shear)});
+}
+
+std::vector<Quantity> Tips::event_figures() const {
+  return {{"from", "m", 0}, {"to", "m", 0}, {"largest_load", "1", 0}, {"surplus_energy", "J/m", 0}};
+}
+
+std::vector<Event> Tips::events(const StepTime& step) const {
+  std::vector<Event> events;
+  if (examined_ != step.start) return events;
+  for (const EndNote& note : notes_) {
+    if (!note.event) continue;
+    events.push_back(*note.event);
+    Event& event = events.back();
+    event.begin = event.end = step.end;
+    for (const Tip& tip : tips_)
+      if (event.thing == name() + "." + tip.name) event.place = position(tip, tip.now.path);
+  }
+  return events;
 }
 
 void Tips::note_step(Notes& notes, const StepTime&) const {

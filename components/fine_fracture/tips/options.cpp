@@ -24,6 +24,7 @@ void TipsOptions::declare_growth(Spec& spec) {
        .source = "the paper's sec. 2.5",
        .material = true});
   usually(spec, "toughness", usual_toughness());
+  spec.section("toughness_anisotropy", anisotropy.spec(), {.doc = "How the toughness differs with the direction."});
   spec.choice("meeting", meeting,
               {{"join", "it joins the other fracture, at the nearest point of its mesh, unless that closes a ring"},
                {"stop", "it stops for good"}},

@@ -60,6 +60,22 @@ void Tips::check_shortest(const Tip& tip) const {
                    "choose a longer increment, of half an edge for example, or a smaller mesh.fracture_size");
 }
 
+void Tips::check_anisotropy() const {
+  const double strength = options_.anisotropy.strength;
+  if (strength == 0) return;
+  if (!(strength > Anisotropy::low && strength < Anisotropy::high))
+    throw InputError(origin_, fmt::format("'toughness_anisotropy.strength' of {} is {:.4g}", name(), strength),
+                     "in rock with strong anisotropy tips that grow straight are not where G/G_c is largest, and paths "
+                     "zigzag between two directions, as finely as the increment lets them",
+                     fmt::format("choose one between {} and {}, both exclusive", Anisotropy::low, Anisotropy::high));
+  if (options_.toughness && !options_.growth.is_implicit())
+    throw InputError(origin_,
+                     fmt::format("'growth.direction' of {} is '{}', and its toughness is anisotropic", name(),
+                                 options_.growth.direction),
+                     "the rules for a kink at the old tip are those of isotropic rock",
+                     "take 'implicit', or leave 'toughness_anisotropy' out");
+}
+
 void Tips::check_longest() const {
   const GrowthOptions& growth = options_.growth;
   if (!options_.toughness || !growth.longest || *growth.longest >= growth.smallest_length()) return;

@@ -173,12 +173,13 @@ double Tips::estimated_load(const Tip& tip) const {
                           std::sqrt(2 * std::numbers::pi / distance) *
                           surroundings_->jump_at_tip(tip.end.fracture, tip.end.at_end);
   constexpr double shear_to_equivalent = 1.25;
-  return shear_to_equivalent * estimate / toughness(tip);
+  const double lowest = toughness(tip.end, position(tip, tip.now.path)) * options_.anisotropy.smallest();
+  return shear_to_equivalent * estimate / lowest;
 }
 
 void Tips::set_factors(Tip& tip, const Sifs& sifs) const {
   tip.now.sifs = sifs;
-  tip.now.load = options_.toughness ? equivalent_sif(sifs) / toughness(tip) : 0;
+  tip.now.load = options_.toughness ? equivalent_sif(felt(tip)) / toughness(tip) : 0;
   tip.now.is_evaluated = true;
 }
 

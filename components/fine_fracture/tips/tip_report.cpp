@@ -13,7 +13,8 @@ void Tips::report(std::vector<Quantity>& quantities) const {
       if (!is_same(tip.end, end)) continue;
       const double length = tip.now.grown + length_of(position(tip, {}), tip.now.path);
       report_end(tip.name, tip.now,
-                 {position(tip, tip.now.path), length, tip.length_at_start, options_.toughness ? toughness(tip) : 0},
+                 {position(tip, tip.now.path), length, tip.length_at_start, options_.toughness ? toughness(tip) : 0,
+                  equivalent_sif(felt(tip))},
                  quantities);
     }
     State at_rest;
@@ -22,7 +23,7 @@ void Tips::report(std::vector<Quantity>& quantities) const {
       if (is_same(joint.end, end))
         report_end(joint.name, at_rest,
                    {end_point(mesh_, end), joint.grown, joint.length_at_start,
-                    options_.toughness ? toughness(end, end_point(mesh_, end)) : 0},
+                    options_.toughness ? toughness(end, end_point(mesh_, end)) : 0, 0},
                    quantities);
   }
 }
@@ -35,7 +36,7 @@ void Tips::report_end(const std::string& end, const State& state, const EndGrowt
   };
   quantities.push_back({prefix + "K_I", "Pa*m^0.5", known(state.sifs.k1)});
   quantities.push_back({prefix + "K_II", "Pa*m^0.5", known(state.sifs.k2)});
-  quantities.push_back({prefix + "K_eq", "Pa*m^0.5", known(equivalent_sif(state.sifs))});
+  quantities.push_back({prefix + "K_eq", "Pa*m^0.5", known(growth.equivalent)});
   quantities.push_back({prefix + "K_error_fine_mesh", "Pa*m^0.5", known(state.sif_error)});
   quantities.push_back({prefix + "stopped", "1", state.is_stopped ? 1.0 : 0.0});
   quantities.push_back({prefix + "length", "m", growth.length});

@@ -15,6 +15,7 @@ Tips::Tips(const ComponentContext& context, const TipsOptions& options, std::uni
       options_(options),
       maker_(std::move(maker)) {
   check_increment();
+  check_anisotropy();
   check_longest();
   for (const TipEnd& end : all_ends(mesh_)) {
     if (kind_of(mesh_, end) == Ridge::Kind::junction) joints_.push_back({end, name_of(mesh_, end)});
@@ -61,6 +62,14 @@ std::optional<Point> Tips::corner_of_last_segment(const Tip& tip) const {
 Point Tips::end_direction(const Tip& tip) const {
   const std::optional<Point> corner = corner_of_last_segment(tip);
   return corner ? Point((position(tip, {}) - *corner).normalized()) : direction(tip);
+}
+
+double Tips::ahead(const Tip& tip, const TipPath& path) const {
+  const std::vector<Point>& added = path.added;
+  const Point way = added.empty()       ? end_direction(tip)
+                    : added.size() == 1 ? Point(added[0] - position(tip, {}))
+                                        : Point(added.back() - added[added.size() - 2]);
+  return std::atan2(way[1], way[0]);
 }
 
 BesideArcs Tips::arcs_of_last_segments() const {

@@ -8,12 +8,14 @@
 #include "components/capabilities/fracture_tips.hpp"
 #include "components/fine_fracture/fine_level/fine_domain.hpp"
 #include "components/fine_fracture/fine_level/fine_level.hpp"
+#include "components/fine_fracture/growth/anisotropy.hpp"
 #include "components/fine_fracture/growth/arc.hpp"
 #include "components/fine_fracture/growth/grow_tips.hpp"
 #include "components/fine_fracture/tips/beside_arcs.hpp"
 #include "framework/assembly/counts_work.hpp"
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/keeps_state.hpp"
+#include "framework/assembly/tells_events.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/growing.hpp"
@@ -24,6 +26,7 @@ namespace sprekk::fine_fracture {
 struct TipsOptions {
   double size = 0;                ///< m, l of sec. 4.3 of the paper
   std::optional<Data> toughness;  ///< K_IC, Pa m^0.5
+  Anisotropy anisotropy;
   std::string meeting = "join";
   double cavity = 4;           ///< radius in coarse mesh sizes
   double cavity_growth = 0.3;  ///< of edges in it, m per m
@@ -40,6 +43,7 @@ class Tips : public Component,
              public KeepsState,
              public FollowsMesh,
              public CountsWork,
+             public TellsEvents,
              public FractureTips,
              public MovingTips,
              public Growing {
@@ -58,6 +62,9 @@ class Tips : public Component,
   std::vector<Profile::Entry> efforts() const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime& step) const override;
+  /// Jumps: an event for each tip; those of one jump have the same time.
+  std::vector<Quantity> event_figures() const override;
+  std::vector<Event> events(const StepTime& step) const override;
 
   /// Throws InputError for jumps on walls where the fine level takes none.
   void accept_surroundings(TipSurroundings& surroundings) override;
@@ -151,6 +158,7 @@ class Tips : public Component,
     Point position;                  ///< m
     double length, length_at_start;  ///< m, of what has grown
     double toughness;                ///< K_IC there, Pa m^0.5; 0 where tips do not grow
+    double equivalent;               ///< K_eq, Pa m^0.5
   };
   void report_end(const std::string& end, const State& state, const EndGrowth& growth,
                   std::vector<Quantity>& quantities) const;
@@ -161,6 +169,7 @@ class Tips : public Component,
   void check_shortest(const Tip& tip) const;  ///< throws InputError where increments are far below the mesh
   void check_longest() const;                 ///< throws InputError where a tip could not grow at all
   void check_increment() const;               ///< throws InputError where an increment would leave the square
+  void check_anisotropy() const;              ///< throws InputError where tips have no direction
   const FractureCell& last_cell(const TipEnd& end) const;
   Point position(const Tip& tip, const TipPath& path) const;
   Point direction(const Tip& tip) const;  ///< of the last cell
@@ -182,9 +191,21 @@ class Tips : public Component,
   Sifs keep_factors(Tip& tip, const TipFactors& factors) const;
   /// The load as estimated from the displacement jump of the coarse level beside the tip, without a fine level.
   double estimated_load(const Tip& tip) const;
-  /// K_IC of rock that this end of a fracture grows into, Pa m^0.5. Throws DataError.
+  /// K_IC of rock that this end of a fracture grows into, across the direction of its anisotropy, Pa m^0.5. Throws
+  /// DataError.
   double toughness(const TipEnd& end, const Point& x) const;
-  double toughness(const Tip& tip) const { return toughness(tip.end, position(tip, tip.now.path)); }
+  /// K_IC for growth straight ahead, Pa m^0.5.
+  double toughness(const Tip& tip, const TipPath& path) const {
+    return toughness(tip.end, position(tip, path)) * options_.anisotropy.toughness(ahead(tip, path));
+  }
+  double toughness(const Tip& tip) const { return toughness(tip, tip.now.path); }
+  double ahead(const Tip& tip,
+               const TipPath& path) const;  ///< rad from the x axis, the direction at the end of the path
+  /// The factors as the criterion takes them (felt_sifs).
+  Sifs felt(const Tip& tip, const TipPath& path, const Sifs& sifs) const {
+    return felt_sifs(sifs, ahead(tip, path), options_.anisotropy);
+  }
+  Sifs felt(const Tip& tip) const { return felt(tip, tip.now.path, tip.now.sifs); }
   /// Whether the fluid at the tip holds it back by its viscosity.
   bool is_viscous(const Tip& tip) const;
   /// K_eq (Pa sqrt(m)) of a viscous tip that the mesh follows and that moves with a speed (m/s): with the pressure that
@@ -243,7 +264,8 @@ class Tips : public Component,
   /// A note on how growth has ended.
   struct EndNote {
     std::string topic, text;
-    double measure;  ///< how bad it is: of several notes on one topic the worst is kept
+    double measure;                   ///< how bad it is: of several notes on one topic the worst is kept
+    std::optional<Event> event = {};  ///< that it tells of; when and where, events() says
   };
   std::vector<EndNote> notes_;                                      ///< of the growth in this step
   std::shared_ptr<Profile> profile_ = std::make_shared<Profile>();  ///< of all fine levels

@@ -18,7 +18,7 @@ constexpr double direction_over_load = 10;  ///< tolerance of K_II/K_I, over tha
 
 FrontState TipsFront::state_of(const Tips& tips, const Tips::Tip& tip) {
   if (!tips.is_followed(tip) || tip.now.is_stopped) return {{}, 0, false};
-  return {tip.now.sifs, tip.now.load, tip.now.is_evaluated};
+  return {tips.felt(tip), tip.now.load, tip.now.is_evaluated};
 }
 
 TipsFront::TipsFront(Tips& tips, const StepTime& step, bool may_shrink, bool goes_on)

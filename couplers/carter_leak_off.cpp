@@ -1,0 +1,183 @@
+// carter_leak_off: fluid leaves fractures into rock that has no flow of its own, by Carter's law.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
+#include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/property.hpp"
+#include "framework/field/counted_amounts.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
+#include "framework/mesh/mesh_change.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+constexpr const char* size_unit = dimension == 2 ? "m" : "m^2";
+
+struct CarterOptions {
+  Data coefficient;                     ///< C_L, m/s^0.5
+  Data spurt = 0;                       ///< m
+  std::optional<double> exposed_since;  ///< s
+  Spec spec() {
+    Spec spec(
+        "carter_leak_off",
+        "Fluid leaves fractures into rock that has no flow of its own: through each wall, and per area of it, 2 C_L "
+        "sqrt(t - t_0) and the spurt loss since fluid has come there at t_0. Both walls leak, so a fracture loses "
+        "twice that. What has fluid at the start of the run has had its spurt.");
+    spec.ignore("type").ignore("between");
+    spec.data("leak_off_coefficient", coefficient,
+              {.unit = "m/s^0.5",
+               .range = non_negative(),
+               .doc = "C_L of one wall: its leak-off velocity is C_L/sqrt(t - t_0).",
+               .source = "Howard and Fast 1957 (appendix by Carter)",
+               .required = true,
+               .material = true});
+    spec.data("spurt_loss", spurt,
+              {.unit = "m",
+               .range = non_negative(),
+               .doc = "Volume per area of one wall that leaves when fluid comes to it.",
+               .source = "Howard and Fast 1957 (appendix by Carter)",
+               .material = true});
+    spec.quantity(
+        "exposed_since", exposed_since,
+        {.unit = "s",
+         .doc = "t_0 of walls that have fluid at the start of the run, not after it; without it, the start."});
+    return spec;
+  }
+};
+
+/// Takes from the balance of each fracture cell what has left through both of its walls in the step, exactly for the
+/// mean time of exposure of the cell. What of a cell becomes wet in the step (a tip has come by, or fluid has filled
+/// it) does so evenly over the step. The leak-off does not depend on the pressure, so it has no derivatives.
+class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
+ public:
+  CarterLeakOff(const CouplerContext& context, const CarterOptions& options)
+      : Coupler(context.name),
+        mesh_(context.mesh),
+        origin_(context.origin),
+        fluid_(context.the<FractureFluid>()),
+        rock_left_out_(context.left_out<MatrixFluid>()),
+        exposed_since_(options.exposed_since.value_or(context.start_time)),
+        coefficient_(options.coefficient, fracture_cell_places(mesh_), context.start_time),
+        spurt_(options.spurt, fracture_cell_places(mesh_), context.start_time),
+        wet_(add(context, "wet", size_unit, "Size of the part that fluid has come to")),
+        wet_time_(add(context, "wet_time", std::string(size_unit) + "*s",
+                      "The same times the mean time at which it came there")),
+        leaked_(add(context, "leaked", volume_unit, "Fluid that has left through both walls since the start")) {
+    if (exposed_since_ > context.start_time)
+      throw InputError(origin_, "'exposed_since' is after the start of the run",
+                       "walls that have fluid at the start have had it by then", "give a time up to time.start");
+    begin();
+  }
+
+  void count_amounts_from_here(const SettledFields&) override { begin(); }
+
+  /// Fluid comes to cells that have grown in the step in which the mesh has them first.
+  void carry_over(const Part&, const MeshChange& change) override {
+    if (change.is_at_start) return;
+    const Vector covered = covered_parts(change, mesh_);
+    for (Field* amount : {&wet_, &wet_time_, &leaked_}) {
+      Vector values = amount->accepted();
+      for (int i = 0; i < values.size(); ++i)
+        if (covered[i] == 0) values[i] = 0;
+      amount->set_both(std::move(values));
+    }
+  }
+
+  void evaluate_data(const StepTime&) override {
+    if (fluid_.rock_fluid())
+      throw InputError(origin_, "fluid leaves '" + fluid_.pressure().spec().owner + "' twice",
+                       "a coupler wall_exchange lets it into the flow in the rock",
+                       "remove one of the two couplers, " + name() + " or wall_exchange");
+  }
+
+  void begin_step(const StepTime&) override { wet_at_end_ = wet_sizes().cwiseMax(wet_.accepted()); }
+
+  void assemble(Assembly& assembly, const StepTime& step) const override {
+    if (!assembly.has_row(fluid_.pressure())) return;
+    const Vector leaking = leaking_in(step);
+    BalanceRows(assembly, fluid_.pressure()).exchange(leaking, leaking);
+  }
+
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
+    if (std::ranges::count(solved, &fluid_.pressure()) == 0) return;
+    const Vector fresh = wet_at_end_ - wet_.accepted();
+    wet_.set(wet_at_end_);
+    wet_time_.set(wet_time_.accepted() + (step.end - step.dt / 2) * fresh);
+    leaked_.set(leaked_.accepted() + leaking_in(step));
+  }
+
+  void balance(std::map<std::string, Balance>& balances) const override {
+    const double leaked = sum_owned(mesh_, Location::fracture_cell, leaked_.now());
+    balances["fluid"].outflow += leaked;
+    balances["fluid"].throughput += leaked;
+  }
+
+  void report(std::vector<Quantity>& quantities) const override {
+    quantities.push_back({name() + ".leaked", volume_unit, sum_owned(mesh_, Location::fracture_cell, leaked_.now())});
+  }
+
+  void note_input(Notes& notes) const override {
+    if (!rock_left_out_.empty())
+      notes.add(name() + " beside " + rock_left_out_,
+                fmt::format("what leaves the fractures by '{}' does not come to the fluid of '{}' (Carter's law stands "
+                            "for the flow in the rock) take wall_exchange in its place, unless that is meant",
+                            name(), rock_left_out_));
+  }
+
+ private:
+  /// All fluid of the present state has been there since then.
+  void begin() {
+    wet_.set_both(wet_sizes());
+    wet_time_.set_both(exposed_since_ * wet_.now());
+    leaked_.set_both(Vector::Zero(leaked_.size()));
+  }
+
+  Field& add(const CouplerContext& context, const std::string& name, const std::string& unit, const std::string& doc) {
+    return context.fields.add(mesh_, amounts_with(fluid_.pressure(), context.name, name, unit, doc));
+  }
+
+  /// m (in space m^2), of the part of each cell that has fluid now.
+  Vector wet_sizes() const {
+    Vector sizes(mesh_.fracture_cell_count());
+    for (int i = 0; i < sizes.size(); ++i)
+      sizes[i] = fluid_.is_in_fracture_cell(i) ? mesh_.fracture_cells[i].measure * fluid_.filled_part(i) : 0;
+    return sizes;
+  }
+
+  /// What leaves each cell in the step, through both walls.
+  Vector leaking_in(const StepTime& step) const {
+    Vector leaking(mesh_.fracture_cell_count());
+    for (int i = 0; i < leaking.size(); ++i) {
+      const double wet = wet_.accepted()[i], fresh = wet_at_end_[i] - wet;
+      const double since = wet > 0 ? wet_time_.accepted()[i] / wet : step.start;
+      const auto root = [since](double time) { return std::sqrt(std::max(0.0, time - since)); };
+      // The mean of sqrt(t - t_0) over arrivals in the step is 2/3 sqrt(dt).
+      const double roots = wet * (root(step.end) - root(step.start)) + fresh * (2.0 / 3) * std::sqrt(step.dt);
+      leaking[i] = 2 * (2 * coefficient_[i] * roots + spurt_[i] * fresh);
+    }
+    return leaking;
+  }
+
+  const Mesh& mesh_;
+  Origin origin_;
+  FractureFluid& fluid_;
+  std::string rock_left_out_;  ///< a flow in the rock that the coupler does not stand between
+  double exposed_since_;       ///< s, of what has fluid at the start
+  Property coefficient_, spurt_;
+  Field &wet_, &wet_time_, &leaked_;
+  Vector wet_at_end_;  ///< of the step
+};
+
+const RegisterCoupler<CarterLeakOff, CarterOptions> registration("carter_leak_off");
+
+}  // namespace
+}  // namespace sprekk::couplers
