@@ -3,12 +3,16 @@
 // conductances t_k from the centres to the end, r = 1/t_home, and the point at the part s of the way from the centre to
 // the end, a rate q at the point is a rate (1 − s) q at the centre and s q at the end, and
 //   p = (1 − s) p_home + s p_end + s (1 − s) r q,   p_end = (sum of t_k p_k + s q)/(sum of t_k).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "components/fracture_flow/tpfa/equivalent_radius.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/discretization/along_fracture.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/mesh/ridge_distance.hpp"
 
 namespace sprekk::fracture_flow {
@@ -117,6 +121,26 @@ std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Poin
     shares.emplace_back(half.cell, half.cell == cell ? share + 1 - before : share);
   }
   return shares;
+}
+
+double FractureFlow::bore_at(const FracturePlace& where, int cell) {
+  if constexpr (dimension == 3) {
+    if (!where.radius) return 0;
+    if (const auto known = bores_.find(&where); known != bores_.end()) return known->second;
+    const Point at = point_at(cell, *where.at);
+    const double around = equivalent_radius(mesh_, drops_, cell, at, along_fracture(mesh_, cell, at));
+    if (around == 0)
+      throw InputError(
+          where.origin, "what a bore hole feels is not known here",
+          "the fracture cell at " + to_text(at) + " is at the rim of its fracture, or where it meets others",
+          "choose a point that is farther inside, or smaller cells");
+    if (around <= *where.radius)
+      throw InputError(where.origin, "the fracture cells are too small for the bore hole",
+                       fmt::format("those at {} stand for a radius of {:.3g} m", to_text(at), around),
+                       "use larger cells there");
+    return bores_[&where] = std::log(around / *where.radius) / (2 * M_PI);
+  }
+  return 0;
 }
 
 FractureFluid::Rise FractureFlow::rise_of(const OpenPoint& point) const {

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/fracture_flow/tpfa/equivalent_radius.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/assembly/balance_rows.hpp"
-#include "framework/discretization/along_fracture.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/mesh/geometry.hpp"
@@ -107,26 +105,6 @@ std::vector<std::pair<int, double>> FractureFlow::shares_by_length(const Fractur
   std::vector<std::pair<int, double>> shares;
   for (const int cell : cells) shares.emplace_back(cell, mesh_.fracture_cells[cell].measure / length);
   return shares;
-}
-
-double FractureFlow::bore_at(const FracturePlace& where, int cell) {
-  if constexpr (dimension == 3) {
-    if (!where.radius) return 0;
-    if (const auto known = bores_.find(&where); known != bores_.end()) return known->second;
-    const Point at = point_at(cell, *where.at);
-    const double around = equivalent_radius(mesh_, drops_, cell, at, along_fracture(mesh_, cell, at));
-    if (around == 0)
-      throw InputError(
-          where.origin, "what a bore hole feels is not known here",
-          "the fracture cell at " + to_text(at) + " is at the rim of its fracture, or where it meets others",
-          "choose a point that is farther inside, or smaller cells");
-    if (around <= *where.radius)
-      throw InputError(where.origin, "the fracture cells are too small for the bore hole",
-                       fmt::format("those at {} stand for a radius of {:.3g} m", to_text(at), around),
-                       "use larger cells there");
-    return bores_[&where] = std::log(around / *where.radius) / (2 * M_PI);
-  }
-  return 0;
 }
 
 void FractureFlow::prescribe(const StepTime& step) {
