@@ -12,7 +12,8 @@ import unittest
 import numpy as np
 
 from scene_runs import on_two_processes
-from scenes_in_space import SIDES, SpaceRuns
+from scenes_in_space import CUTS, FLOWS, SIDES, SpaceRuns
+from scenes_in_space import scene as scene_with_rock
 
 RATE, TRANSMISSIVITY, VISCOSITY, BORE = 3.0, 0.7, 0.5, 1e-3  # m^3/s, m^3, Pa s, m
 SCALE = VISCOSITY * RATE / (2 * math.pi * TRANSMISSIVITY)  # Pa
@@ -22,6 +23,12 @@ CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
 
 def on_plane(x, y, mirror=1):
     return np.array([mirror * x, y, 0.3 + 0.3 * x + 0.2 * y])
+
+
+def on_cut(u, v):
+    """A point of the first fracture of CUTS."""
+    a, b, c, d = np.array(CUTS["one"])
+    return (1 - u) * (1 - v) * a + u * (1 - v) * b + u * v * c + (1 - u) * v * d
 
 
 def scene(place, what, size, mirror=1, more=""):
@@ -95,6 +102,15 @@ class PointsOnFractures(SpaceRuns):
             text = scene(PLACES[2], what, 0.1, more=", division: scattered")
             one, two = (self.run_text(text, processes=count)[column][-1] for count in (1, 2))
             self.assertAlmostEqual(two / one, 1, delta=1e-9)
+
+    def test_points_have_their_pressures_with_gmres(self):
+        """A rate at a point, whose row has pressures alone, beside rock and walls."""
+        points = {"one": on_cut(0.4, 0.5), "other": on_cut(0.3, 0.2)}
+        given = ", ".join(f"{name}: {{fracture: one, at: [{', '.join(f'{float(c)!r} m' for c in at)}], pressure: {7 + k} Pa}}" for k, (name, at) in enumerate(points.items()))
+        text = scene_with_rock("{size: 0.25 m}", CUTS).replace("    initial_aperture:", f"    prescribed: {{{given}}}\n    initial_aperture:", 1)
+        direct, found = (self.run_text(text, f"solver={{type: {solver}}}") for solver in ("umfpack", "belos"))
+        for column in [*(f"conduit.{name}.rate[m^3/s]" for name in points), *FLOWS]:
+            self.assertAlmostEqual(found.history[column][-1], direct.history[column][-1], delta=1e-6 * abs(direct["conduit.one.rate"][-1]))
 
     def test_what_is_told(self):
         for place, radius, size, words, code in (((0.5, 0.5), 0.5, 0.1, "too small for the bore hole", 2), ((0.999, 0.5), 1e-3, 0.1, "at the rim", 2),

@@ -13,8 +13,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
   const Partition partition(system);
   const int parts = static_cast<int>(partition.parts.size());
   const int local = parts - 1;
-  const LinearReport report = elimination_.factor(system, partition);
-  if (!report.solved) throw std::invalid_argument(report.reason);
+  elimination_.emplace(system, partition);
   local_owned_ = partition.local().owned;
   local_unknowns_ = static_cast<int>(partition.local().unknowns.size());
 
@@ -33,10 +32,11 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
     }
   }
 
+  std::vector<SparseMatrix> bulk;
   for (int part = 0; part < local; ++part) {
     const UnknownBlock& block = partition.parts[part].block;
-    SparseMatrix a = sub_matrix(system.local, partition, part, part);
-    a += elimination_.correction(system, partition, part);
+    SparseMatrix& a = bulk.emplace_back(sub_matrix(system.local, partition, part, part));
+    a += elimination_->correction(system, partition, part);
     if (block.stabilization.size() > 0) {
       SparseMatrix diagonal(a.rows(), a.cols());
       diagonal.reserve(Eigen::VectorXi::Ones(a.rows()));
@@ -50,13 +50,15 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
     }
     cycles_.push_back(trilinos().multigrid(a, partition.parts[part].owned, block));
   }
+  const LinearReport report = elimination_->factor(system, partition, bulk);
+  if (!report.solved) throw std::invalid_argument(report.reason);
 }
 
 // Every process has A_FF^-1, so the right-hand side is gathered first.
 Vector BlockPreconditioner::solve_local(Vector owned) const {
   SPREKK_EXPECT(owned.size() == static_cast<Eigen::Index>(local_owned_.size()), owned.size(), local_owned_.size());
   Vector whole = whole_vector(local_owned_, owned, local_unknowns_);
-  elimination_.solve(whole);
+  elimination_->solve(whole);
   for (std::size_t k = 0; k < local_owned_.size(); ++k) owned[k] = whole[local_owned_[k]];
   return owned;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/linear/iterative/local_elimination.hpp"
@@ -33,7 +34,7 @@ class BlockPreconditioner {
   std::vector<std::vector<int>> owned_rows_;        ///< of every part
   std::vector<std::vector<Coupling>> couplings_;    ///< of every part's rows with other parts
   std::vector<std::unique_ptr<Multigrid>> cycles_;  ///< of every bulk part
-  LocalElimination elimination_;
+  std::optional<LocalElimination> elimination_;
   std::vector<int> local_owned_;
   int local_unknowns_ = 0;
 };

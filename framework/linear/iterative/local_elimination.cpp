@@ -188,21 +188,17 @@ SparseMatrix sub_matrix(const SparseMatrix& owned_rows, const Partition& partiti
   return columns_of_part(owned_rows, partition.parts[rows].owned_rows, partition, columns);
 }
 
-LinearReport LocalElimination::factor(const LinearSystem& system, const Partition& partition) {
+LocalElimination::LocalElimination(const LinearSystem& system, const Partition& partition) {
   const int unknowns = static_cast<int>(partition.local().unknowns.size());
-  if (unknowns == 0) return LinearReport::success();
+  if (unknowns == 0) return;
   rows_ = gather_local_rows(system, partition);
-
-  LinearSystem alone;
-  alone.local = columns_of_part(rows_, all_rows(rows_), partition, static_cast<int>(partition.parts.size()) - 1);
-  alone.rows.resize(unknowns);
-  for (int place = 0; place < unknowns; ++place) alone.rows[place] = place;
+  local_ = columns_of_part(rows_, all_rows(rows_), partition, static_cast<int>(partition.parts.size()) - 1);
   std::vector<Triplet> inverses;
   for (const std::vector<int>& cell : unknowns_by_cell(system, partition)) {
     const int size = static_cast<int>(cell.size());
     Eigen::MatrixXd block(size, size);
     for (int i = 0; i < size; ++i)
-      for (int j = 0; j < size; ++j) block(i, j) = alone.local.coeff(cell[i], cell[j]);
+      for (int j = 0; j < size; ++j) block(i, j) = local_.coeff(cell[i], cell[j]);
     block = inverse_or_zero(block);
     for (int i = 0; i < size; ++i)
       for (int j = 0; j < size; ++j)
@@ -210,7 +206,36 @@ LinearReport LocalElimination::factor(const LinearSystem& system, const Partitio
   }
   cell_inverses_ = SparseMatrix(unknowns, unknowns);
   cell_inverses_.setFromTriplets(inverses.begin(), inverses.end());
+}
 
+LinearReport LocalElimination::factor(const LinearSystem& system, const Partition& partition,
+                                      const std::vector<SparseMatrix>& bulk) {
+  const int unknowns = static_cast<int>(partition.local().unknowns.size());
+  if (unknowns == 0) return LinearReport::success();
+  const int local = static_cast<int>(partition.parts.size()) - 1;
+  const Vector sizes = local_.cwiseAbs() * Vector::Ones(unknowns);
+  std::vector<char> is_missing(unknowns);
+  for (int row = 0; row < unknowns; ++row) is_missing[row] = sizes[row] == 0;
+  Vector of_schur = Vector::Zero(unknowns);
+  for (int part = 0; part < local; ++part) {
+    const SparseMatrix from_local = sub_matrix(system.local, partition, part, local);
+    const SystemPart& of = partition.parts[part];
+    for (int k = 0; k < from_local.rows(); ++k)
+      for (SparseMatrix::InnerIterator entry(from_local, k); entry; ++entry) {
+        if (!is_missing[entry.col()]) continue;
+        const double own = bulk[part].coeff(k, of.owned[k]);
+        if (own != 0) of_schur[entry.col()] -= rows_.coeff(entry.col(), of.unknowns[of.owned[k]]) * entry.value() / own;
+      }
+  }
+  parallel::sum(of_schur);
+
+  LinearSystem alone;
+  alone.local = local_;
+  for (int row = 0; row < unknowns; ++row)
+    if (of_schur[row] != 0) alone.local.coeffRef(row, row) = of_schur[row];
+  alone.local.makeCompressed();
+  alone.rows.resize(unknowns);
+  for (int place = 0; place < unknowns; ++place) alone.rows[place] = place;
   LinearReport report = solver_.factor(alone);
   if (!report.solved)
     report.reason = "the preconditioner cannot eliminate the unknowns on the fractures (" + report.reason + ")";

@@ -38,9 +38,12 @@ SparseMatrix sub_matrix(const SparseMatrix& owned_rows, const Partition& partiti
 /// has.
 class LocalElimination {
  public:
-  LocalElimination() = default;
-  /// Collective. `solved` is false if A_FF is singular.
-  LinearReport factor(const LinearSystem& system, const Partition& partition);
+  /// Collective, as factor is.
+  LocalElimination(const LinearSystem& system, const Partition& partition);
+  /// `solved` is false if A_FF is singular. An unknown whose row has no entry in A_FF, as a rate at a point with a
+  /// given potential, has that of the Schur complement, -A_FB diag(A_BB)^-1 A_BF. `bulk`: the rows of A_BB that this
+  /// process holds, by parts.
+  LinearReport factor(const LinearSystem& system, const Partition& partition, const std::vector<SparseMatrix>& bulk);
   void solve(Vector& local) const {
     if (local.size() > 0) solver_.solve_unchecked(local);
   }
@@ -50,6 +53,7 @@ class LocalElimination {
  private:
   UmfpackSolver solver_;
   SparseMatrix rows_;           ///< the rows of all local unknowns, all columns of the system; on every process
+  SparseMatrix local_;          ///< of these the local columns, A_FF
   SparseMatrix cell_inverses_;  ///< D^-1
 };
 

@@ -82,8 +82,8 @@ TEST(LocalElimination, CorrectionIsTheSchurComplementWhenFractureCellsAreIndepen
   ASSERT_EQ(partition.parts.size(), 3u);
   EXPECT_EQ(partition.parts[0].block.name, "pore.pressure");
   EXPECT_EQ(partition.parts[1].block.name, "rock.displacement");
-  LocalElimination elimination;
-  ASSERT_TRUE(elimination.factor(system, partition).solved);
+  LocalElimination elimination(system, partition);
+  ASSERT_TRUE(elimination.factor(system, partition, {}).solved);
 
   const Eigen::MatrixXd a = system.local.toDense();
   const int bulk = 2 * problem.nodes(), first = problem.first_local(), local = problem.unknowns() - first;
@@ -99,8 +99,8 @@ TEST(LocalElimination, SolvesTheLocalBlockExactly) {
   const test::FracturedBiot problem{8};
   const LinearSystem system = problem.build();
   const Partition partition(system);
-  LocalElimination elimination;
-  ASSERT_TRUE(elimination.factor(system, partition).solved);
+  LocalElimination elimination(system, partition);
+  ASSERT_TRUE(elimination.factor(system, partition, {}).solved);
   const int first = problem.first_local(), local = problem.unknowns() - first;
   Vector exact = test::random_vector(local, 5);
   exact.head(2 * problem.columns()) *= 1e6;
