@@ -250,6 +250,9 @@ class HeatInSpace(SpaceRuns):
             exact = np.array([math.erfc(each) for each in 2.5 * area / (4e6 * 2e-4) / np.sqrt(1e-6 * late)])
             errors.append(np.sqrt(np.mean((water["water.temperature"][near] - exact) ** 2) / np.mean(exact ** 2)))
         print("Lauwerier from a point: errors", errors)
+        # Shares of a point beside a corner add up, and none of them takes anything out.
+        brought = self.run_text(quarter(10, 20), "time={end: 1e4 s, step: 1e3 s}").history["heat_injected[J]"][-1]
+        self.assertLess(abs(brought / (2e-4 * 4e6 * 1e4) - 1), 1e-9)
         self.assertGreater(math.log2(errors[0] / errors[1]), 0.9)  # upwinding and backward Euler are of first order
         self.assertLess(errors[1], 0.035)
 

@@ -163,6 +163,17 @@ std::vector<Override> with_a_flow_beside() {
           {"schedule", "[{solve: [pore, beside, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"}};
 }
 
+/// The scene without flow in the rock, into which the fracture leaks by Carter's law.
+std::vector<Override> with_leak_off() {
+  return {{"components.pore", ""},
+          {"output.probes", ""},
+          {"couplers",
+           "[{type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, "
+           "{type: two_level, between: [rock, conduit, tips, contact]}, {type: carter_leak_off, between: [conduit], "
+           "leak_off_coefficient: 1e-6 m/s^0.5, spurt_loss: 1e-6 m}]"},
+          {"schedule", "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"}};
+}
+
 const std::vector<std::vector<Override>> scenes = {
     {},
     {{"components.pore.type", "matrix_flow/tpfa"}},
@@ -178,6 +189,7 @@ const std::vector<std::vector<Override>> scenes = {
     with_wells(),
     with_other_flows(),
     with_a_flow_beside(),
+    with_leak_off(),
     {{"components.tips.sectors", ""},
      {"components.tips.mesh_ratio", ""},
      {"components.tips.type", "fine_fracture/boundary_element"}},
@@ -206,6 +218,7 @@ TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
                                  "well_exchange",
                                  "matrix_exchange",
                                  "border_exchange",
+                                 "carter_leak_off",
                                  "matrix_flow/prescribed",
                                  "matrix_heat/prescribed",
                                  "fine_fracture/boundary_element"},
