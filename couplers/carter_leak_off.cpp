@@ -7,6 +7,7 @@
 
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
+#include "components/capabilities/temperature.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/follows_mesh.hpp"
@@ -75,6 +76,10 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
     if (exposed_since_ > context.start_time)
       throw InputError(origin_, "'exposed_since' is after the start of the run",
                        "walls that have fluid at the start have had it by then", "give a time up to time.start");
+    if (context.find<FractureTemperature>() || !context.left_out<FractureTemperature>().empty())
+      throw InputError(origin_, "the fluid that leaks off would leave its heat behind",
+                       "no coupler carries heat with it, and the fractures have a temperature",
+                       "take flow and heat in the rock with wall_exchange and heat_advection, or remove the heat");
     begin();
   }
 

@@ -111,6 +111,15 @@ schedule:
             answer = self.call(["check"], [KGD, self.write(text, "leaks.yaml"), *([self.write(more, "more.yaml")] if more else [])])
             self.assertEqual(answer.returncode, 2, message)
             self.assertIn(message, answer.stderr)
+        water = """
+components:
+  water: {type: fracture_heat/tpfa, aperture: 0.1 mm, conductivity: 0.6 W/(m*K), heat_capacity: 4e6 J/(m^3*K), initial_temperature: 350 K}
+"""
+        for between in ("[conduit]", "[conduit, water]"):
+            text = carter().partition("schedule")[0].replace("carter_leak_off, between: [conduit]", f"carter_leak_off, between: {between}")
+            answer = self.call(["check"], [KGD, self.write(text, "leaks.yaml"), self.write(water, "more.yaml")])
+            self.assertEqual(answer.returncode, 2, between)
+            self.assertIn("would leave its heat behind", answer.stderr)
         answer = self.call(["check"], [KGD, self.write(carter().partition("schedule")[0], "leaks.yaml"), self.write(pore, "more.yaml")])
         self.assertIn("Carter's law stands for the flow in the rock", answer.stdout + answer.stderr)
 
