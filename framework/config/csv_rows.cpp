@@ -42,18 +42,6 @@ bool is_number(const std::string& cell) {
   return number && number->length == cell.size();
 }
 
-/// "name[unit]", "name (unit)", "name {unit}" or "name / unit"; else the whole cell is the name.
-CsvHeading heading_of(const std::string& cell) {
-  for (const auto& [open, close] : {std::pair('[', ']'), std::pair('(', ')'), std::pair('{', '}')}) {
-    const std::size_t bracket = cell.find(open);
-    if (bracket != std::string::npos && cell.back() == close)
-      return {trimmed(cell.substr(0, bracket)), trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2)), cell};
-  }
-  const std::size_t slash = cell.find('/');
-  if (slash == std::string::npos) return {cell, "", cell};
-  return {trimmed(cell.substr(0, slash)), trimmed(cell.substr(slash + 1)), cell};
-}
-
 std::vector<CsvHeading> headings_of(const CsvRow& row) {
   std::vector<CsvHeading> headings;
   for (const std::string& cell : row.cells) headings.push_back(heading_of(cell));
@@ -77,6 +65,17 @@ void require_commas(const CsvRows& csv, const std::string& file) {
 }
 
 }  // namespace
+
+CsvHeading heading_of(const std::string& cell) {
+  for (const auto& [open, close] : {std::pair('[', ']'), std::pair('(', ')'), std::pair('{', '}')}) {
+    const std::size_t bracket = cell.find(open);
+    if (bracket != std::string::npos && cell.back() == close)
+      return {trimmed(cell.substr(0, bracket)), trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2)), cell};
+  }
+  const std::size_t slash = cell.find('/');
+  if (slash == std::string::npos) return {cell, "", cell};
+  return {trimmed(cell.substr(0, slash)), trimmed(cell.substr(slash + 1)), cell};
+}
 
 CsvRows split_csv(const std::string& content) {
   CsvRows csv{{}, split_rows(content)};

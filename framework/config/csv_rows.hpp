@@ -19,6 +19,9 @@ struct CsvHeading {
   std::string whole;  ///< as it is written
 };
 
+/// The parts of a heading as it is written.
+CsvHeading heading_of(const std::string& cell);
+
 /// Headings are the first row, if none of its cells is a number; else there are none.
 struct CsvRows {
   std::vector<CsvHeading> headings;

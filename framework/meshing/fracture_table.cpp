@@ -1,15 +1,17 @@
 #include "framework/meshing/fracture_table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "framework/config/csv_rows.hpp"
 #include "framework/config/number.hpp"
 #include "framework/config/text_file.hpp"
+#include "framework/meshing/fracture_geojson.hpp"
 #include "framework/meshing/place_from_row.hpp"
 
 namespace sprekk {
@@ -28,6 +30,46 @@ bool is_geometry(const std::string& column) {
   return std::find(known.begin(), known.end(), column) != known.end();
 }
 
+/// What other programs call the columns, in small letters.
+const std::map<std::string, std::string>& usual_names() {
+  static const std::map<std::string, std::string> names = {
+      {"start_x", "x1"}, {"start_y", "y1"}, {"end_x", "x2"}, {"end_y", "y2"}, {"x_start", "x1"},      {"y_start", "y1"},
+      {"x_end", "x2"},   {"y_end", "y2"},   {"fid", "name"}, {"id", "name"},  {"fracture_id", "name"}};
+  return names;
+}
+
+std::string in_small_letters(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// Calls columns as we do, where no other one is called so.
+void rename_usual(std::vector<CsvHeading>& headings) {
+  for (CsvHeading& heading : headings) {
+    const std::string name = in_small_letters(heading.name);
+    const auto usual = usual_names().find(name);
+    const std::string& wanted = usual != usual_names().end() ? usual->second : name;
+    if (is_geometry(wanted) && std::ranges::count(headings, wanted, &CsvHeading::name) == 0) heading.name = wanted;
+  }
+}
+
+/// The table with its headings, where these stand behind a '#' above the first row.
+std::string with_headings(const std::string& content) {
+  const std::size_t hash = content.find_first_not_of(" \t\r\n");
+  if (hash == std::string::npos || content[hash] != '#') return content;
+  const std::size_t end = std::min(content.find('\n', hash), content.size());
+  CsvRows first = split_csv(content.substr(hash + 1, end - hash - 1) + "\n");
+  rename_usual(first.headings);
+  const CsvRows rest = split_csv(content);
+  const bool are_missing = rest.headings.empty() && !rest.rows.empty();
+  if (!are_missing || first.headings.size() != rest.rows.front().cells.size() ||
+      !std::ranges::any_of(first.headings, is_geometry, &CsvHeading::name))
+    return content;
+  std::string text = content;
+  text[hash] = ' ';
+  return text;
+}
+
 /// The column that only tables with a row for each fracture have.
 const std::string is_single = dimension == 2 ? "x1" : "strike";
 
@@ -36,7 +78,10 @@ class TableReader {
   explicit TableReader(const FractureTable& table) : table_(table) {}
 
   std::vector<FractureGeometry> read() {
-    csv_ = split_csv(content());
+    const std::string text = content();
+    if (is_geojson(table_.file)) return read_fracture_geojson(text, table_.file, table_.set, table_.where);
+    csv_ = split_csv(with_headings(text));
+    rename_usual(csv_.headings);
     if (csv_.headings.empty())
       throw refused("has no headings", "its columns are known by them",
                     std::string("begin it with the line '") +
@@ -177,67 +222,21 @@ class TableReader {
   CsvRows csv_;
 };
 
-/// The values of the columns that all fractures have, named as those of the first one.
-std::vector<std::string> common_columns(const std::vector<FractureGeometry>& fractures) {
-  std::vector<std::string> common;
-  for (const ColumnValue& value : fractures.front().values) {
-    const auto has_it = [&](const FractureGeometry& fracture) {
-      return std::ranges::any_of(fracture.values, [&](const ColumnValue& other) {
-        return other.column == value.column && other.unit == value.unit;
-      });
-    };
-    if (std::ranges::all_of(fractures, has_it)) common.push_back(value.column);
-  }
-  return common;
-}
-
-void require_writable_name(const FractureGeometry& fracture) {
-  if (fracture.name.find_first_of(",\"\n") == std::string::npos && fracture.name.front() != '#') return;
-  throw InputError(fracture.origin, "the name of fracture '" + fracture.name + "' has no place in a table",
-                   "it has a comma, a quotation mark, or begins with '#'", "rename it");
-}
-
 }  // namespace
 
-std::string fracture_table(const std::vector<FractureGeometry>& fractures) {
-  if (fractures.empty()) throw InputError("there are no fractures (the scene has none, or a mesh file holds them)");
-  const bool are_straight =
-      dimension == 2 && std::ranges::all_of(fractures, [](const auto& f) { return f.points.size() == 2; });
-  const bool have_sizes = std::ranges::all_of(fractures, [](const auto& f) { return f.size.has_value(); });
-  const std::vector<std::string> columns = common_columns(fractures);
-  std::string text = are_straight     ? "name,x1[m],y1[m],x2[m],y2[m]"
-                     : dimension == 2 ? "name,x[m],y[m]"
-                                      : "name,x[m],y[m],z[m]";
-  if (have_sizes) text += ",size[m]";
-  for (const ColumnValue& value : fractures.front().values)
-    if (std::ranges::count(columns, value.column))
-      text += fmt::format(",{}{}", value.column, value.unit.empty() ? "" : "[" + value.unit + "]");
-  text += "\n";
-  for (const FractureGeometry& fracture : fractures) {
-    require_writable_name(fracture);
-    if (fracture.ellipse)
-      throw InputError(fracture.origin, "fracture '" + fracture.name + "' is an ellipse",
-                       "a table of points holds polygons", "leave it out");
-    std::string further;
-    if (have_sizes) further += fmt::format(",{}", *fracture.size);
-    for (const std::string& column : columns)
-      further += fmt::format(",{}", std::ranges::find(fracture.values, column, &ColumnValue::column)->value);
-    const std::vector<Point>& points = fracture.points;
-    if (are_straight)
-      text += fmt::format("{},{},{},{},{}{}\n", fracture.name, points[0].x(), points[0].y(), points[1].x(),
-                          points[1].y(), further);
-    else
-      for (const Point& point : points) text += fmt::format("{},{}{}\n", fracture.name, fmt::join(point, ","), further);
+std::vector<FractureGeometry> read_fracture_table(const FractureTable& table) {
+  std::vector<FractureGeometry> fractures = TableReader(table).read();
+  for (FractureGeometry& fracture : fractures) {
+    for (Point& point : fracture.points) point -= table.origin;
+    if (fracture.ellipse) fracture.ellipse->center -= table.origin;
   }
-  return text;
+  return fractures;
 }
-
-std::vector<FractureGeometry> read_fracture_table(const FractureTable& table) { return TableReader(table).read(); }
 
 void require_used_columns(const std::vector<FractureGeometry>& fractures, const std::set<std::string>& used) {
   for (const FractureGeometry& fracture : fractures)
     for (const ColumnValue& value : fracture.values)
-      if (used.count(value.column) == 0)
+      if (used.count(value.column) == 0 && !is_geojson(value.where.source))
         throw unknown_name({value.where.source, 1},
                            "column of the table of fractures, which no datum takes either:", value.column,
                            columns_of_geometry());

@@ -7,6 +7,7 @@
 
 #include "framework/config/usual_range.hpp"
 #include "framework/mesh/medium.hpp"
+#include "framework/meshing/clip_fracture.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/random/random_fractures_spec.hpp"
 #include "framework/meshing/spec/places.hpp"
@@ -48,22 +49,41 @@ Spec box_spec(const std::shared_ptr<BoxInput>& input, Box& box) {
 
 struct FractureInput {
   std::string table;
+  std::optional<Point> origin;
+  bool is_clipped = false;
   bool is_random = false;
   RandomFractures random;
   std::optional<double> size;
+};
+
+/// Fractures of a table that are cut off at the sides of the box.
+struct ClippedTable {
+  std::string file;
+  Origin where;
+  std::vector<FractureGeometry> fractures;
 };
 
 /// Takes the fractures of a scene as they are read.
 struct FractureKeeper {
   std::function<void(FractureGeometry)> keep;
   std::function<void(RandomFractures)> keep_set;
+  std::function<void(std::vector<FractureGeometry>, bool is_clipped, const std::string& file)> keep_table;
 };
 
 /// Throws InputError for further parameters beside a key that gives a whole set.
-void require_alone(const Node& whole, const std::string& name, const std::string& how, const std::string& key) {
-  if (whole.keys().size() > 1)
-    throw InputError(whole.origin, "the fractures '" + name + "' are given twice",
-                     "they " + how + " and have further parameters", "keep " + key + " alone");
+void require_alone(const Node& whole, const std::string& name, const std::string& how, const std::string& key,
+                   const std::vector<std::string>& beside = {}) {
+  for (const std::string& other : whole.keys())
+    if (other != key && std::ranges::count(beside, other) == 0)
+      throw InputError(whole.origin, "the fractures '" + name + "' are given twice",
+                       "they " + how + " and have further parameters", "remove '" + other + "'");
+}
+
+void require_table(const Node& whole, const std::string& name) {
+  for (const char* const key : {"origin", "clip"})
+    if (whole.find(key))
+      throw InputError(origin_of(whole, key), "fracture '" + name + "' has '" + key + "'",
+                       "it is for the fractures of a table", "remove it");
 }
 
 Spec fracture_spec(const std::string& name, const Origin& origin, const std::string& folder, FractureKeeper keeper) {
@@ -76,20 +96,28 @@ Spec fracture_spec(const std::string& name, const Origin& origin, const std::str
   spec.text("table", input->table,
             {.doc = "A CSV file beside the scene with many fractures: " + std::string(table_columns) +
                     "; also name and size. They are called NAME_1, "
-                    "NAME_2, … where they have no names. Data may take further columns by {column: …}."});
+                    "NAME_2, … where they have no names. Data may take further columns by {column: …}. Or a GeoJSON "
+                    "file with " +
+                    (dimension == 2 ? "lines" : "polygons with z") + ", whose properties are such columns."});
+  spec.point("origin", input->origin,
+             {.unit = "m", .doc = "What in the coordinates of the table is the origin of the scene; by default zero."});
+  if constexpr (dimension == 2)
+    spec.flag("clip", input->is_clipped,
+              {.doc = "Leaves out what of the fractures of a table lies outside of the box."});
   input->random.name = name;
   input->random.origin = origin;
   spec.section("random", random_fractures_spec(input->random),
                {.doc = "A set that is drawn at random: NAME_1, NAME_2, …, the longest first."}, &input->is_random);
   spec.check([input, place, name, origin, folder, keeper = std::move(keeper)](const Node& whole) {
     if (!input->table.empty()) {
-      require_alone(whole, name, "come from a table", "the table");
-      for (FractureGeometry& fracture : read_fracture_table({input->table, folder, name, origin}))
-        keeper.keep(std::move(fracture));
-      return;
+      require_alone(whole, name, "come from a table", "table", {"origin", "clip"});
+      std::vector<FractureGeometry> fractures =
+          read_fracture_table({input->table, folder, name, origin, input->origin.value_or(Point::Zero())});
+      return keeper.keep_table(std::move(fractures), input->is_clipped, input->table);
     }
+    require_table(whole, name);
     if (input->is_random) {
-      require_alone(whole, name, "are random", "'random'");
+      require_alone(whole, name, "are random", "random");
       return keeper.keep_set(input->random);
     }
     FractureGeometry fracture{name, {}, input->size, origin};
@@ -97,6 +125,29 @@ Spec fracture_spec(const std::string& name, const Origin& origin, const std::str
     keeper.keep(std::move(fracture));
   });
   return spec;
+}
+
+/// Cuts tables off at the box once this is known.
+void clip_tables(const std::vector<ClippedTable>& tables, Geometry& geometry) {
+  if constexpr (dimension == 2)
+    for (const ClippedTable& table : tables) {
+      if (geometry.is_imported() || geometry.box.size().minCoeff() <= 0) return;  // validate_geometry says so
+      const std::size_t before = geometry.fractures.size();
+      for (const FractureGeometry& fracture : table.fractures)
+        for (FractureGeometry& part : clipped(fracture, geometry.box)) geometry.fractures.push_back(std::move(part));
+      if (geometry.fractures.size() > before) continue;
+      Point low = table.fractures.front().points.front(), high = low;
+      for (const FractureGeometry& fracture : table.fractures)
+        for (const Point& point : fracture.points) {
+          low = low.cwiseMin(point);
+          high = high.cwiseMax(point);
+        }
+      throw InputError(table.where, "no fracture of the table '" + table.file + "' lies in the box",
+                       "its points lie between " + to_text(low) + " and " + to_text(high) +
+                           ", those of the box between " + to_text(geometry.box.low) + " and " +
+                           to_text(geometry.box.high),
+                       "give its 'origin'");
+    }
 }
 
 /// Draws the random sets once everything else is known.
@@ -125,13 +176,19 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                : "A gmsh mesh file of tetrahedra, wedges and hexahedra instead of a box, relative to the scene: groups "
                  "of surfaces are sides (on the boundary) or fractures (inside), groups of volumes are regions."});
   const auto sets = std::make_shared<std::vector<RandomFractures>>();
+  const auto tables = std::make_shared<std::vector<ClippedTable>>();
   // The short form `fractures: {table: FILE}` has been expanded by expand_fracture_table.
   spec.named_sections(
       "fractures", fracture_spec("", {}, "", {}),
-      [&geometry, folder, sets](const std::string& name, const Origin& origin) {
+      [&geometry, folder, sets, tables](const std::string& name, const Origin& origin) {
+        const auto keep_table = [&geometry, tables, origin](std::vector<FractureGeometry> fractures, bool is_clipped,
+                                                            const std::string& file) {
+          if (is_clipped) return tables->push_back({file, origin, std::move(fractures)});
+          std::ranges::move(fractures, std::back_inserter(geometry.fractures));
+        };
         return fracture_spec(name, origin, folder,
                              {[&geometry](FractureGeometry f) { geometry.fractures.push_back(std::move(f)); },
-                              [sets](RandomFractures set) { sets->push_back(std::move(set)); }});
+                              [sets](RandomFractures set) { sets->push_back(std::move(set)); }, keep_table});
       },
       {.doc = "The fractures, by name; they may cross and touch one another inside of the " + medium_name() + "."});
   spec.named_sections("regions", region_spec("", {}, [](RegionGeometry) {}),
@@ -153,7 +210,7 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                                "nothing."
                              : "Fractures that are nearer to one another or to a side, but do not touch, are refused; "
                                "by default a millionth of the diagonal of the box."});
-  spec.check([&geometry, folder, sets](const Node& whole) {
+  spec.check([&geometry, folder, sets, tables](const Node& whole) {
     const bool has_box = whole.find("box"), has_file = geometry.is_imported();
     if (has_box == has_file) {
       throw InputError(whole.origin,
@@ -163,6 +220,7 @@ Spec geometry_spec(Geometry& geometry, const std::string& folder) {
                        : dimension == 2 ? "write box: {x: [0 m, 1 m], y: [0 m, 1 m]}"
                                         : "write box: {x: [0 m, 1 m], y: [0 m, 1 m], z: [0 m, 1 m]}");
     }
+    clip_tables(*tables, geometry);
     draw_sets(*sets, geometry);
     if constexpr (dimension == 3) complete_side_parts(geometry);
     geometry.snap_origin = origin_of(whole, "snap");
