@@ -1,5 +1,4 @@
 // thermal_stress: temperature loads the rock, sigma = C : grad u − 3 K alpha_T (T − T_0) I (Biot 1956; Nowacki 1986).
-#include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/temperature.hpp"
 #include "components/capabilities/usual_ranges.hpp"
@@ -36,8 +35,7 @@ class ThermalStress : public Coupler {
         heat_(context.the<MatrixTemperature>()),
         rock_(context.the<PoroelasticRock>()),
         expansion_(options.expansion, cell_places(context.mesh), context.start_time),
-        switch_times_(options.expansion.switch_times()),
-        flow_(context.left_out<MatrixFluid>()) {
+        switch_times_(options.expansion.switch_times()) {
     if (rock_.bulk_modulus().values().minCoeff() <= 0)
       throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
                        "its stiffness is anisotropic", "give 'bulk_modulus' to the component");
@@ -55,14 +53,6 @@ class ThermalStress : public Coupler {
   void assemble(Assembly&, const StepTime&) const override {}
   std::vector<double> switch_times() const override { return switch_times_; }
 
-  void note_input(Notes& notes) const override {
-    if (!flow_.empty())
-      notes.add("fluid does not expand: " + flow_,
-                "the fluid of '" + flow_ +
-                    "' keeps its volume when it is warmed (thermal_stress expands the rock alone) expect too low "
-                    "pressures where fluid that is warmed cannot leave, and too high ones where it is cooled");
-  }
-
  private:
   Vector stress_by_temperature() const { return 3 * rock_.bulk_modulus().values().cwiseProduct(expansion_.values()); }
   void remember() { used_ = {expansion_.version(), rock_.bulk_modulus().version()}; }
@@ -72,7 +62,6 @@ class ThermalStress : public Coupler {
   Property expansion_;
   std::pair<std::uint64_t, std::uint64_t> used_;
   std::vector<double> switch_times_;
-  std::string flow_;  ///< a flow in the rock; empty for none
 };
 
 const RegisterCoupler<ThermalStress, ThermalStressOptions> registration("thermal_stress");
