@@ -13,14 +13,9 @@
 namespace sprekk::contact {
 
 void FrictionalContact::evaluate_formulas() {
-  // Values that scale the search for the state of walls; the answer does not depend on them.
-  constexpr double usual_pressure = 1e6;  // Pa
   const int count = mesh_.fracture_cell_count();
-  if (const StateFormula* friction = formulas_->friction()) {
-    Vector values(count);
-    for (int i = 0; i < count; ++i) values[i] = friction->at(i, WallState{0, 0, 0, usual_pressure}, {});
-    friction_.set(std::move(values));
-  }
+  // It scales the search for the state of walls; the answer does not depend on it.
+  if (formulas_->friction()) friction_.set(Vector::Ones(count));
   if (!formulas_->dilation()) return;
   for (int i = 0; i < count; ++i) {
     dilation_[i] = dilation_at(i, 0);
@@ -76,6 +71,7 @@ Strength FrictionalContact::strength(int i, const WallState& state) const {
   if (!friction && !cohesion) return weakening_.at(friction_[i], dynamic_friction(i), state[path_of_walls]);
   OfWalls f{friction_[i]}, c{weakening_.cohesion};
   if (friction) f.value = friction->at(i, state, f.by);
+  SPREKK_ASSERT(f.value >= 0, i, f.value);
   if (cohesion) c.value = cohesion->at(i, state, c.by);
   Weakening weakening = weakening_;
   weakening.cohesion = c.value;

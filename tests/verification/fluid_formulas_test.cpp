@@ -24,7 +24,7 @@ components:
 couplers:
   - {{type: wall_exchange, between: [pore, conduit]}}
   - {{type: heat_exchange, between: [heat, water]}}
-  - {{type: heat_advection, between: [pore, conduit, heat, water]}}
+  - {{type: heat_advection, between: [pore, conduit, heat, water], fluid_heat_capacity: 4.2e6 J/(m^3*K)}}
   - {{type: thermal_viscosity, between: [pore, conduit, heat, water], {}}}
   - {{type: buoyancy, between: [pore, conduit, heat, water], {}}}
 schedule: [{{solve: [pore, conduit, heat, water]}}]

@@ -126,10 +126,10 @@ time: {{end: 60 s, step: 20 s}}
 TEST(HydraulicFormulas, OfTheNormalStressHaveOneAnswerInEveryScheme) {
   const std::string formula = "a^3/12*exp(-sigma_n/(5 MPa))";
   SceneRun whole = SceneRun::from_text(pressed("[{solve: [rock, conduit, contact]}]", formula));
-  SceneRun split = SceneRun::from_text(
-      pressed("[{iterate: [{solve: [rock, contact]}, {solve: [conduit], stabilize: response}], tolerance: 1e-10, "
-              "accelerate: {anderson: {}}}]",
-              formula));
+  SceneRun split = SceneRun::from_text(pressed(
+      "[{iterate: {fallback: none, until: {relative: 1e-10, at_most: 400}, steps: [{solve: [rock, contact]}, {solve: "
+      "conduit, stabilize: response}]}}]",
+      formula));
   SceneRun disturbed = SceneRun::from_text(pressed("[{solve: [rock, conduit, contact]}]", formula, 1 + 1e-9));
   SceneRun without = SceneRun::from_text(pressed("[{solve: [rock, conduit, contact]}]", "a^3/12"));
   for (SceneRun* run : {&whole, &split, &disturbed, &without}) run->run();
