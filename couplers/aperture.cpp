@@ -9,6 +9,7 @@
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/follows_waiting.hpp"
 #include "framework/assembly/stabilizes.hpp"
+#include "framework/assembly/state_fields.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -36,6 +37,8 @@ class Aperture : public Coupler, public FollowsMesh, public Stabilizes, public F
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
       if (!contacts_.at(i) && fluid_.is_in_fracture_cell(i)) left_out_ = context.left_out<FractureContact>();
     context.determine(fluid_.aperture());
+    if (auto* formulas = dynamic_cast<TakesState*>(&fluid_))
+      for (FractureContact* contact : contacts_) formulas->offer_state("sigma_n", {&contact->traction(), 0, -1});
     const int cells = context.mesh.fracture_cell_count();
     std::vector<Triplet> entries;
     for (int i = 0; i < cells; ++i) entries.emplace_back(i, dimension * i, 1.0);

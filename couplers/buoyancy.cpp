@@ -11,6 +11,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/temperature.hpp"
 #include "components/capabilities/usual_ranges.hpp"
+#include "couplers/fluid_formulas.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -29,7 +30,8 @@ struct BuoyancyOptions {
   double reference_temperature = room_temperature;
   double compressibility = 0;
   double reference_pressure = 0;
-  bool has_expansion = false, has_temperature = false;
+  std::optional<Data> density;  ///< kg/m^3, of the law formula
+  bool has_expansion = false, has_compressibility = false, has_temperature = false;
   Spec spec() {
     Spec spec("buoyancy",
               "The density of the fluid follows its temperature and its pressure in what gravity does to it "
@@ -38,7 +40,8 @@ struct BuoyancyOptions {
     spec.choice("law", law,
                 {{"linear", "fluid_density (1 − fluid_expansion (T − T_0) + compressibility (p − p_0))"},
                  {"exponential", "fluid_density exp(−fluid_expansion (T − T_0) + compressibility (p − p_0))"},
-                 {"water", "that of liquid water at 0.1 MPa from 0 to 150 °C, times exp(compressibility (p − p_0))"}},
+                 {"water", "that of liquid water at 0.1 MPa from 0 to 150 °C, times exp(compressibility (p − p_0))"},
+                 {"formula", "the formula given as density"}},
                 {.doc = "How it follows temperature T and pressure p.",
                  .source = "Kell 1975, J. Chem. Eng. Data 20, 97, for water"});
     spec.quantity("fluid_density", fluid_density,
@@ -62,13 +65,28 @@ struct BuoyancyOptions {
     usually(spec, "compressibility", usual_compressibility());
     spec.quantity("reference_pressure", reference_pressure,
                   {.unit = "Pa", .doc = "p_0; the pressure at which the law without compressibility holds."});
+    spec.data("density", density, {.unit = "kg/m^3", .range = positive(), .doc = "A formula, of the law formula."});
+    may_be_formula(spec.name(), "density", fluid_variables());
     spec.check([this](const Node& node) {
-      has_expansion = law == "water" || fluid_expansion > 0;
+      if ((law == "formula") != density.has_value())
+        throw InputError(node.origin, density ? "'density' has no effect" : "'density' is missing",
+                         "the law is '" + law + "'",
+                         density ? "write 'law: formula', or remove it" : "give its formula in kg/m^3");
+      const auto names = [&](std::size_t variable) {
+        return density && (variables_named(*density, {}, fluid_variables()) >> variable & 1U) != 0;
+      };
+      if (density) refuse_place(*density, node.find("density")->origin, "density");
+      has_expansion = law == "water" || (law != "formula" && fluid_expansion > 0) || names(0);
+      has_compressibility = compressibility > 0 || names(1);
       has_temperature = node.find("reference_temperature") != nullptr;
       if (law == "water" && (node.find("fluid_density") || node.find("fluid_expansion") || has_temperature))
         throw InputError(node.origin, "parameters of the linear law have no effect", "the law is that of water",
                          "write 'law: linear' or 'law: exponential', or remove them");
-      if (!has_expansion && compressibility == 0)
+      if (density && (node.find("fluid_density") || node.find("fluid_expansion") || has_temperature ||
+                      node.find("compressibility") || node.find("reference_pressure")))
+        throw InputError(node.origin, "parameters of other laws have no effect", "the law is a formula",
+                         "write their values in the formula");
+      if (!has_expansion && !has_compressibility)
         throw InputError(node.origin, "the density does not vary",
                          "'fluid_expansion' and 'compressibility' are both zero",
                          "give one of them here, or 'fluid_expansion' in 'materials:', or remove the coupler");
@@ -86,6 +104,10 @@ class DensityLaw {
  public:
   explicit DensityLaw(const BuoyancyOptions& options) : options_(options) {}
   Density at(double temperature, double pressure) const {
+    if (options_.density) {
+      const auto [value, by] = of_fluid(*options_.density, temperature, pressure);
+      return {value, by[0], by[1]};
+    }
     const double rise = options_.compressibility * (pressure - options_.reference_pressure);
     if (options_.law == "water") {
       const auto [value, slope] = water(temperature - ice_point);
@@ -169,7 +191,7 @@ class DensityIn : public FluidDensity {
   const Field& pressure() const { return pressure_; }
 
  private:
-  bool follows_pressure() const { return options_.compressibility > 0; }
+  bool follows_pressure() const { return options_.has_compressibility; }
   Density at(State state, int i) const {
     const auto of = [&](const Field& field) { return (state == State::now ? field.now() : field.accepted())[i]; };
     return law_.at(temperature_ ? of(*temperature_) : options_.reference_temperature, of(pressure_));

@@ -1,4 +1,4 @@
-// thermal_viscosity: the viscosity of the fluid follows its temperature.
+// thermal_viscosity: the viscosity of the fluid follows its temperature, and by a formula its pressure.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/temperature.hpp"
 #include "components/capabilities/usual_ranges.hpp"
+#include "couplers/fluid_formulas.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -16,6 +17,7 @@ namespace {
 struct ThermalViscosityOptions {
   std::string law = "water";
   std::optional<double> reference_viscosity, reference_temperature, decay;
+  std::optional<Data> viscosity;  ///< Pa s, of the law formula
   Spec spec() {
     Spec spec(
         "thermal_viscosity",
@@ -24,14 +26,22 @@ struct ThermalViscosityOptions {
     spec.ignore("type").ignore("between");
     spec.choice("law", law,
                 {{"water", "2.414e-5 Pa s times 10^(247.8 K/(T - 140 K)), for liquid water from 273 to 640 K"},
-                 {"exponential", "reference_viscosity times exp(-decay (T - reference_temperature))"}},
+                 {"exponential", "reference_viscosity times exp(-decay (T - reference_temperature))"},
+                 {"formula", "the formula given as viscosity"}},
                 {.doc = "How it follows the temperature.", .source = "Vogel 1921; Al-Shemmeri 2012"});
     spec.quantity("reference_viscosity", reference_viscosity,
                   {.unit = "Pa*s", .range = positive(), .doc = "Of the exponential law."});
     usually(spec, "reference_viscosity", usual_viscosity());
     spec.quantity("reference_temperature", reference_temperature, {.unit = "K", .doc = "Of the exponential law."});
     spec.quantity("decay", decay, {.unit = "1/K", .range = non_negative(), .doc = "Of the exponential law."});
+    spec.data("viscosity", viscosity, {.unit = "Pa*s", .range = positive(), .doc = "A formula, of the law formula."});
+    may_be_formula(spec.name(), "viscosity", fluid_variables());
     spec.check([this](const Node& node) {
+      if ((law == "formula") != viscosity.has_value())
+        throw InputError(node.origin, viscosity ? "'viscosity' has no effect" : "'viscosity' is missing",
+                         "the law is '" + law + "'",
+                         viscosity ? "write 'law: formula', or remove it" : "give its formula in Pa*s");
+      if (viscosity) refuse_place(*viscosity, node.find("viscosity")->origin, "viscosity");
       const bool has_any = reference_viscosity || reference_temperature || decay;
       const bool has_all = reference_viscosity && reference_temperature && decay;
       if (law == "exponential" && !has_all)
@@ -65,21 +75,22 @@ class ThermalViscosity : public Coupler {
   }
 
   void evaluate_data(const StepTime&) override {
-    if (matrix_ && rock_) matrix_->change_viscosity(viscosities(rock_->temperature()));
-    if (fracture_ && water_) fracture_->change_viscosity(viscosities(water_->temperature()));
+    if (matrix_ && rock_) matrix_->change_viscosity(viscosities(rock_->temperature(), matrix_->pressure()));
+    if (fracture_ && water_) fracture_->change_viscosity(viscosities(water_->temperature(), fracture_->pressure()));
   }
   void begin_step(const StepTime&) override {}
   void assemble(Assembly&, const StepTime&) const override {}
 
  private:
-  double viscosity(double temperature) const {
+  double viscosity(double temperature, double pressure) const {
+    if (options_.viscosity) return of_fluid(*options_.viscosity, temperature, pressure).value;
     if (options_.law == "exponential")
       return *options_.reference_viscosity *
              std::exp(-*options_.decay * (temperature - *options_.reference_temperature));
     constexpr double factor = 2.414e-5, rise = 247.8, pole = 140;  // Pa s, K, K
     return factor * std::pow(10, rise / (temperature - pole));
   }
-  Vector viscosities(const Field& temperature) const {
+  Vector viscosities(const Field& temperature, const Field& pressure) const {
     constexpr double coldest = 273, hottest = 640;  // K, of the law for water
     Vector values(temperature.size());
     for (int i = 0; i < values.size(); ++i) {
@@ -90,7 +101,7 @@ class ThermalViscosity : public Coupler {
                                    fmt::format("the law holds from {} to {} K", coldest, hottest),
                                    "give temperatures in K from absolute zero, or another law")
                             .what());
-      values[i] = viscosity(t);
+      values[i] = viscosity(t, pressure.accepted()[i]);
     }
     return values;
   }

@@ -13,7 +13,7 @@ SOURCE_FOLDERS = ("framework", "components", "couplers", "tests", "tools")
 ROOMS = ("framework/", "components/", "couplers/")
 # Outside headers that take seconds and hundreds of megabytes to compile, or may not meet each other.
 HEAVY = re.compile(r"^(Tpetra|Belos|MueLu|Ifpack2|Amesos2|Xpetra|Zoltan2|Teuchos|Kokkos|vtk|gmsh\.h|hdf5\.h|H5"
-                   r"|muParser|yaml-cpp|umfpack|dmumps|mpi\.h)")
+                   r"|yaml-cpp|umfpack|dmumps|mpi\.h)")
 # Outside headers of libraries that are slow to load: only modules, which are opened when they are needed, may name them.
 OF_MODULES = re.compile(r"^(Tpetra|Belos|MueLu|Ifpack2|Amesos2|Xpetra|Zoltan2|Teuchos|Kokkos|vtk|gmsh\.h)")
 # Words of the physics. The framework knows media that are fractured, and the tip of a fracture as an end of its line; what

@@ -42,7 +42,7 @@ CellEquations equations_of(const Trial& t, const Point& traction, const CellSett
     by_f_t /= c_t;
     if (t.normal <= 0 && (t.at_rate || !t.sticks())) {
       const TangentialVector by_normal =
-          (t.at_rate ? t.at_rate->by_pressure : TangentialVector(returned.by_bound * t.strength.friction)) / c_t;
+          (t.at_rate ? t.at_rate->by_pressure : TangentialVector(returned.by_bound * t.bound_by_pressure)) / c_t;
       by_f.bottomLeftCorner<tangents, 1>() = by_normal * (1 + c_n * gap_by_f);
       by_u.bottomLeftCorner<tangents, 1>() = by_normal * c_n;
       by_u.bottomRightCorner<tangents, tangents>() += by_normal * c_n * gap_by_t;
@@ -60,6 +60,7 @@ CellEquations equations_of(const Trial& t, const Point& traction, const CellSett
         const double by_path = t.strength.cohesion_by_path - t.strength.friction_by_path * std::min(0.0, t.normal);
         by_f.bottomLeftCorner<tangents, 1>() -= returned.by_bound * by_path * path_by_f / c_t;
         by_u.bottomRows<tangents>() -= returned.by_bound * by_path * path_by_u / c_t;
+        by_u.bottomRightCorner<tangents, tangents>() -= returned.by_bound * t.bound_by_slip.transpose() / c_t;
       }
     }
   }

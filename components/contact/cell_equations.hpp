@@ -20,7 +20,7 @@ struct CellEquations {
 struct CellSettings {
   double normal_stiffness, tangential_stiffness;    ///< c, Pa/m, positive
   double normal_compliance, tangential_compliance;  ///< of springs between the walls, m/Pa; 0 where there are none
-  bool weakens;                                     ///< whether the strength depends on the length of the path of slip
+  bool weakens;                                     ///< whether the strength depends on slip, or on its path
 };
 
 /// The equations of a cell with this traction, Pa, whose trial is given (FrictionalContact has the formulas).

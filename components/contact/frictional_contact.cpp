@@ -39,13 +39,21 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
   const std::vector<Place> places = places_of_parameters(mesh_, here_);
-  if (weakening_.is_on()) path_ = &add_path(context);
-  friction_ = Property(options_->friction, places, context.start_time);
+  formulas_ = std::make_unique<Formulas>(
+      LawData{options_->friction, options_->cohesion, options_->dilation, options_->closure.formula}, places);
+  if (formulas_->friction() && (options.depends_on_rate || options.dynamic_friction))
+    throw InputError(context.origin, "the friction of '" + context.name + "' is a formula, and changes by itself",
+                     "'rate_and_state' and the friction of 'weakening' say how a constant one changes",
+                     "remove one of the two");
+  if (weakening_.is_on() || formulas_->strength_names(path_of_walls)) path_ = &add_path(context);
+  if (!formulas_->friction()) friction_ = Property(options_->friction, places, context.start_time);
   dilation_angle_ = Property(options_->dilation_angle, places, context.start_time);
   if (options_->dynamic_friction) dynamic_friction_ = Property(*options_->dynamic_friction, places, context.start_time);
   if (options.depends_on_rate)
     rate_and_state_ = std::make_unique<RateAndStateWalls>(context, options.rate_and_state, friction_, here_);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
+  formulas_->set_time(context.start_time);
+  evaluate_formulas();
   stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
   fracture_measure_.assign(mesh_.fractures.size(), 0);
   for (const FractureCell& cell : mesh_.fracture_cells) fracture_measure_[cell.fracture] += cell.measure;
@@ -53,20 +61,14 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
 
 FrictionalContact::~FrictionalContact() = default;
 
-double FrictionalContact::closure(double normal_traction) const {
-  return closure_ ? closure_->at(-normal_traction).closure : 0.0;
-}
-
-double FrictionalContact::closure_by_traction(double normal_traction) const {
-  return closure_ ? -closure_->at(-normal_traction).by_pressure : 0.0;
-}
-
 double FrictionalContact::opening_under(int cell, double normal_traction) const {
   // A fracture that grows has no walls before that could have closed.
-  return mesh_.fracture_cells[cell].grown ? 0.0 : -closure(normal_traction);
+  return mesh_.fracture_cells[cell].grown ? 0.0 : -closure(cell, normal_traction);
 }
 
 void FrictionalContact::evaluate_data(const StepTime& step) {
+  formulas_->set_time(step.end);
+  evaluate_formulas();
   friction_.evaluate(step);
   if (rate_and_state_ && friction_.depends_on_time()) rate_and_state_->evaluate_data(friction_);
   if (options_->dynamic_friction) dynamic_friction_.evaluate(step);
@@ -76,6 +78,7 @@ void FrictionalContact::evaluate_data(const StepTime& step) {
 }
 
 void FrictionalContact::begin_step(const StepTime& step) {
+  dt_ = step.dt;
   if (rate_and_state_) rate_and_state_->begin_step(step, slipping_walls());
   back_slip_.clear();
   kept_.clear();
@@ -145,7 +148,7 @@ void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {
     } else {
       const Point springs = compliance(i);
       cell = equations_of(guesses ? trial_of_update(i) : trial(i), traction_.now().segment<dimension>(row),
-                          {stiffness()[row], stiffness()[row + 1], springs[0], springs[1], path_ != nullptr});
+                          {stiffness()[row], stiffness()[row + 1], springs[0], springs[1], may_weaken()});
     }
     residual.segment<dimension>(row) = cell.residual;
     by_traction.push_back(cell.by_traction);

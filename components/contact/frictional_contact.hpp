@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
+#include "components/contact/laws/formulas.hpp"
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
 #include "components/contact/trial_state.hpp"
@@ -175,8 +176,19 @@ class FrictionalContact : public Component,
   /// The opening by dilation, m, after slip of this size, and its derivative.
   double dilated(int cell, double slip) const;
   double dilation_at(int cell, double slip) const;
-  double closure(double normal_traction) const;              ///< m
-  double closure_by_traction(double normal_traction) const;  ///< its derivative, m/Pa
+  double closure(int cell, double normal_traction) const;              ///< m
+  double closure_by_traction(int cell, double normal_traction) const;  ///< its derivative, m/Pa
+  /// Friction and dilation of formulas where nothing has slid.
+  void evaluate_formulas();
+  /// What the walls hold in this state, with derivatives.
+  Strength strength(int cell, const WallState& state) const;
+  /// The size of the slip and of that in the step, and the pressure; the path is that at the end of the step.
+  WallState wall_state(int cell, double path, double pressure) const;
+  /// That at the start of the step, under this normal traction.
+  Strength strength_before(int cell, double normal_traction) const;
+  bool may_weaken() const { return weakening_.is_on() || formulas_->may_weaken(); }
+  /// The slip over which the walls lose all that they hold now, m.
+  double distance_of_loss(const Strength& strength, double normal_traction) const;
   double gap(int cell, const Vector& traction, const Vector& jump) const;
   double pressure_beside(int cell) const;
   /// By how much the traction exceeds what the walls hold, Pa; negative where they hold it.
@@ -212,11 +224,12 @@ class FrictionalContact : public Component,
   double stiffness_factor_;                            ///< of the springs over c
   std::unique_ptr<Closure> closure_;                   ///< null for hard walls
   std::unique_ptr<RateAndStateWalls> rate_and_state_;  ///< null where friction does not depend on the rate
-  Property friction_, dilation_angle_;                 ///< mu_s, psi
-  Property dynamic_friction_;                          ///< mu_d, where friction weakens
-  Vector dilation_;                                    ///< tan psi
-  std::vector<char> bonded_;                           ///< empty for none
-  Vector bonded_jump_;                                 ///< m, of all cells; empty where none is bonded
+  std::unique_ptr<Formulas> formulas_;
+  Property friction_, dilation_angle_;       ///< mu_s, psi; of formulas, values without slip
+  Property dynamic_friction_;                ///< mu_d, where friction weakens
+  Vector dilation_;                          ///< tan psi
+  std::vector<char> bonded_;                 ///< empty for none
+  Vector bonded_jump_;                       ///< m, of all cells; empty where none is bonded
   Vector carried_traction_;                  ///< Pa, of the state that is being settled on other cells; otherwise empty
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
@@ -225,6 +238,7 @@ class FrictionalContact : public Component,
   Vector shear_modulus_;                     ///< Pa, of the rock beside each cell; empty where it is not known
   bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction
   std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in observe_iterate
+  double dt_ = 0;                            ///< s, of the step
   bool is_without_shortcuts_ = false;        ///< after Newton's method has failed
   bool follows_pieces_ = false;              ///< derivatives of the present piece, no guess of the next
   std::vector<double> fracture_measure_;     ///< m

@@ -33,7 +33,7 @@ std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   const bool has_slid = std::abs(slip) > least_slip * std::abs(shear) / stiffness_to_slip;
   if (is_closed && !has_slid && std::abs(shear) < (1 - at_bound) * held) return std::nullopt;
   const double dilation = std::copysign(t.dilation, slip),
-               opening = dilated(i, std::abs(slip)) - dilation * slip - closure(normal);
+               opening = dilated(i, std::abs(slip)) - dilation * slip - closure(i, normal);
   if (!is_closed) return SlidingWalls{t.strength.friction, std::copysign(1.0, slip), dilation, opening};
   // Walls hardly touch in a cell that has parted over most of its length. Where they do they press like those beside
   // it, and the rock that brings them to rest takes about as much shear from them as from all other places. The ratio

@@ -20,6 +20,8 @@ struct Options {
   Data friction;                         ///< mu_s
   Data dilation_angle;                   ///< psi, rad
   std::optional<double> dilation_limit;  ///< m
+  std::optional<Data> dilation;          ///< m, the opening by slip, instead of the two above
+  Data cohesion;                         ///< Pa
   Weakening weakening;
   bool weakens = false;                  ///< whether the scene has the section
   std::optional<Data> dynamic_friction;  ///< mu_d

@@ -29,10 +29,7 @@ Nucleus nucleus_around(const Mesh& mesh, int cell, const std::vector<char>& move
   return nucleus;
 }
 
-/// The loss of strength over slip, Pa/m, under this normal traction, and over opening.
-double lost_by_slip(const Strength& strength, double normal) {
-  return strength.friction_by_path * normal - strength.cohesion_by_path;
-}
+/// The loss of strength over opening, Pa/m.
 double lost_by_opening(const Strength& strength) { return -strength.tension_by_path; }
 
 }  // namespace
@@ -40,18 +37,18 @@ double lost_by_opening(const Strength& strength) { return -strength.tension_by_p
 Softened FrictionalContact::softened() const {
   constexpr double least = 1e-9;  // of the distance over which strength is lost
   Softened softened{{&traction_, &jump_, {}, {}}};
-  if (!path_) return softened;
+  if (!may_weaken()) return softened;
   const FreeValues free = free_values();
   std::vector<double> factors;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (!is_on_fracture_cell(i) || is_bonded(i)) continue;
-    const Strength strength = weakening_.at(friction_[i], dynamic_friction(i), path_->accepted()[i]);
     const Trial t = trial(i);
     const double normal = std::min({0.0, t.normal, traction_.accepted()[dimension * i]});
+    const Strength strength = strength_before(i, normal);
     for (int k = 0; k < dimension; ++k) {
-      const double lost = k == 0 ? lost_by_opening(strength) : lost_by_slip(strength, normal);
+      const double lost = k == 0 ? lost_by_opening(strength) : lost_by_slip(strength, normal, dt_);
       const double moved = jump_.now()[dimension * i + k] - jump_.accepted()[dimension * i + k];
-      if (lost <= 0 || std::abs(moved) <= least * weakening_.distance) continue;
+      if (lost <= 0 || std::abs(moved) <= least * distance_of_loss(strength, normal)) continue;
       const auto place = std::ranges::lower_bound(free.values, dimension * i + k);
       if (place == free.values.end() || *place != dimension * i + k) {
         softened.spent = std::numeric_limits<double>::infinity();
@@ -59,7 +56,7 @@ Softened FrictionalContact::softened() const {
       }
       softened.values.values.push_back(*place);
       factors.push_back(free.factors[place - free.values.begin()]);
-      if (lost > (k == 0 ? lost_by_opening(t.strength) : lost_by_slip(t.strength, normal)))
+      if (lost > (k == 0 ? lost_by_opening(t.strength) : lost_by_slip(t.strength, normal, dt_)))
         softened.spent = std::max(softened.spent, lost);
     }
   }
@@ -69,7 +66,7 @@ Softened FrictionalContact::softened() const {
 
 FreeValues FrictionalContact::free_values() const {
   FreeValues free{&traction_, &jump_, {}, {}};
-  if (!path_) return free;
+  if (!may_weaken()) return free;
   std::vector<double> factors;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (!is_on_fracture_cell(i) || is_bonded(i)) continue;
@@ -97,7 +94,8 @@ std::string FrictionalContact::tell_loss(const LossOfStability& loss) const {
     moves[i] = 1;
     const Trial t = trial(i);
     const bool is_opening = loss.values[k] % dimension == 0;
-    const double lost = is_opening ? lost_by_opening(t.strength) : lost_by_slip(t.strength, std::min(0.0, t.normal));
+    const double lost =
+        is_opening ? lost_by_opening(t.strength) : lost_by_slip(t.strength, std::min(0.0, t.normal), dt_);
     const double share = mesh_.fracture_cells[i].measure * loss.motion[k] * loss.motion[k];
     weakening += share * lost;
     weight += share;

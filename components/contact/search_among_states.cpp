@@ -67,10 +67,12 @@ int FrictionalContact::piece(int i) const {
   const bool has_kink = dilation_[i] > 0 && now != State::open;
   const bool is_worn = has_kink && t.dilation == 0;
   const int kink = 3 * piece + (is_worn ? 2 : has_kink && is_forward(t.slip_direction));
-  if (!path_ || now == State::stick) return kink;
+  if (!may_weaken() || now == State::stick) return kink;
   // What is left of the strength depends on the size of the slip in the step, and ends where all is lost.
-  const bool is_spent = path(i, gap(i, traction_.now(), jump_.now())) >= weakening_.distance;
-  return 3 * kink + (is_spent ? 2 : is_forward(t.path_by_slip));
+  const Strength& s = t.strength;
+  const bool is_spent = weakening_.is_on() ? path(i, gap(i, traction_.now(), jump_.now())) >= weakening_.distance
+                                           : lost_by_slip(s, std::min(0.0, t.normal), dt_) == 0;
+  return 3 * kink + (is_spent ? 2 : is_forward(path_ ? t.path_by_slip : t.slip_direction));
 }
 
 /// Opens all cells by a very small amount. The amount makes no difference, since the conditions of open cells are
@@ -81,7 +83,7 @@ void FrictionalContact::deactivate_conditions() {
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (is_bonded(i) || !is_on_fracture_cell(i)) continue;
     traction.segment<dimension>(dimension * i).setZero();
-    const double least = dilated(i, magnitude<dimension - 1>(tangential(jump, i))) - closure(0);
+    const double least = dilated(i, magnitude<dimension - 1>(tangential(jump, i))) - closure(i, 0);
     jump[dimension * i] = std::max(jump[dimension * i], least + opening * mesh_.fracture_cells[i].measure);
   }
   traction_.set(std::move(traction));

@@ -27,17 +27,9 @@ double FrictionalContact::dynamic_friction(int i) const {
   return dynamic_friction_.version() > 0 ? dynamic_friction_[i] : friction_[i];
 }
 
-double FrictionalContact::dilated(int i, double slip) const {
-  return std::min(slip, dilation_limit_.value_or(slip)) * dilation_[i];
-}
-
-double FrictionalContact::dilation_at(int i, double slip) const {
-  return dilation_limit_ && slip > *dilation_limit_ ? 0.0 : dilation_[i];
-}
-
 double FrictionalContact::gap(int i, const Vector& traction, const Vector& jump) const {
   return jump[dimension * i] - dilated(i, magnitude<dimension - 1>(tangential(jump, i))) +
-         closure(traction[dimension * i]);
+         closure(i, traction[dimension * i]);
 }
 
 double FrictionalContact::path(int i, double gap) const {
@@ -66,32 +58,38 @@ Trial FrictionalContact::trial(int i) const {
   Trial t;
   const double slip = magnitude<dimension - 1>(u_t);
   t.gap = gap(i, traction_.now(), jump_.now());
-  t.gap_by_traction = closure_by_traction(traction_.now()[row]);
+  t.gap_by_traction = closure_by_traction(i, traction_.now()[row]);
   t.dilation = dilation_at(i, slip);
-  t.strength = weakening_.at(friction_[i], dynamic_friction(i), path_ ? path(i, t.gap) : 0);
+  const double path_now = path_ ? path(i, t.gap) : 0;
   t.path_by_slip.setZero();
   t.path_by_gap = 0;
   if (path_) {
     const double before = std::max(0.0, gap(i, traction_.accepted(), jump_.accepted()));
     t.path_by_gap = t.gap > before;
   }
-  t.tension = t.strength.tension;
-  t.holds_open = path_ && t.strength.cohesion > 0;
   t.gap -= overlap(i);
   const TangentialVector f_t = tangential(traction_.now(), i);
   const TangentialVector slipped = u_t - tangential(jump_.accepted(), i) - elastic_slip(i);
   t.normal = traction_.now()[row] + c_n * t.gap;
   t.tangential = f_t + c_t * slipped;
-  if (path_) {
-    const TangentialVector moved = u_t - tangential(jump_.accepted(), i);
-    t.path_by_slip = direction_of<dimension - 1>(magnitude<dimension - 1>(moved) > 0 ? moved : t.tangential);
-  }
+  const double pressure = std::max(0.0, -t.normal);
+  t.strength = strength(i, wall_state(i, path_now, pressure));
+  t.tension = t.strength.tension;
+  t.holds_open = weakening_.is_on() && t.strength.cohesion > 0;
+  const TangentialVector moved = u_t - tangential(jump_.accepted(), i);
+  const TangentialVector motion =
+      direction_of<dimension - 1>(magnitude<dimension - 1>(moved) > 0 ? moved : t.tangential);
+  if (path_) t.path_by_slip = motion;
   t.bound = t.strength.cohesion - t.strength.friction * std::min(0.0, t.normal);
   // Friction that depends on the slip rate has no cone.
   if (rate_and_state_) t.bound = std::numeric_limits<double>::infinity();
   if (!kept_.empty() && kept_[i] && !t.is_open()) t.bound = std::numeric_limits<double>::infinity();
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
   t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
+  t.bound_by_pressure =
+      t.strength.friction + pressure * t.strength.friction_by_pressure + t.strength.cohesion_by_pressure;
+  t.bound_by_slip = (t.strength.cohesion_by_slip + pressure * t.strength.friction_by_slip) * t.slip_direction;
+  if (dt_ > 0) t.bound_by_slip += (t.strength.cohesion_by_rate + pressure * t.strength.friction_by_rate) / dt_ * motion;
   constexpr double round_off = 1e-10;  // of the traction that makes the slip
   t.least_bound = round_off * c_t * magnitude<dimension - 1>(u_t);
   if (rate_and_state_ && rate_and_state_->has_step()) t.at_rate = at_rate(i, t);
@@ -124,7 +122,7 @@ Trial FrictionalContact::trial_of_update(int i) const {
   // The linear function on the other side of the kink, at the same slip: the opening by dilation has the other sign.
   const double slip = t.slip_direction.dot(tangential(jump_.now(), i));
   t.gap = jump_.now()[dimension * i] - std::copysign(dilated(i, std::abs(slip)), slip) +
-          closure(traction_.now()[dimension * i]) - overlap(i);
+          closure(i, traction_.now()[dimension * i]) - overlap(i);
   // The walls touch, whatever the sign of the normal trial traction: the linear function passes through the values
   // beyond the kink.
   const double normal = traction_.now()[dimension * i] + stiffness()[dimension * i] * t.gap;

@@ -18,7 +18,9 @@ struct Trial : TrialTraction<dimension - 1> {
   Strength strength;
   TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
   double path_by_gap;
-  double least_bound;  ///< friction below it does not hold anything: which way it points is round-off
+  double bound_by_pressure;        ///< d bound / d (−normal) where the walls touch
+  TangentialVector bound_by_slip;  ///< d bound / d [u]_t where normal and path are held; only with a formula
+  double least_bound;              ///< friction below it does not hold anything: which way it points is round-off
   /// The traction of walls whose friction depends on the slip rate; none for friction with a cone.
   struct AtRate {
     ReturnedTraction<dimension - 1> traction;

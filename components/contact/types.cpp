@@ -1,6 +1,8 @@
 // The three types of contact, which differ in what multiplies the gap and the slip (Multiplier), and their parameters.
 #include "components/capabilities/usual_ranges.hpp"
+#include "components/contact/laws/formulas.hpp"
 #include "components/contact/options.hpp"
+#include "framework/config/state.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::contact {
@@ -16,6 +18,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .material = true,
              .in_time = true});
   usually(spec, "friction", usual_friction());
+  may_be_formula(spec.name(), "friction", strength_variables());
   spec.data("dilation_angle", dilation_angle,
             {.unit = "rad",
              .range = between(0, 1.5),
@@ -29,12 +32,20 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                  .range = non_negative(),
                  .doc = "Slip beyond which the fracture opens no further: its asperities are worn. Without it, "
                         "all slip opens."});
-  spec.quantity("cohesion", weakening.cohesion,
-                {.unit = "Pa",
-                 .range = non_negative(),
-                 .doc = "Shear traction that walls in contact hold without pressure, |f_t| <= cohesion - friction f_n. "
-                        "Open walls hold nothing, unless `weakening` says how it is lost."});
+  spec.data("dilation", dilation,
+            {.unit = "m",
+             .range = non_negative(),
+             .doc = "Opening by slip, instead of dilation_angle and dilation_limit: a formula, 0 without slip.",
+             .in_time = true});
+  may_be_formula(spec.name(), "dilation", dilation_variables());
+  spec.data("cohesion", cohesion,
+            {.unit = "Pa",
+             .range = non_negative(),
+             .doc = "Shear traction that walls in contact hold without pressure, |f_t| <= cohesion - friction f_n. "
+                    "Open walls hold nothing, unless `weakening` says how it is lost.",
+             .in_time = true});
   usually(spec, "cohesion", usual_strength());
+  may_be_formula(spec.name(), "cohesion", strength_variables());
   spec.quantity("tensile_strength", weakening.tensile_strength,
                 {.unit = "Pa",
                  .range = non_negative(),
@@ -60,10 +71,17 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   spec.section("closure", closure.spec(), {.doc = "How far walls in contact approach each other under pressure."});
   spec.check([this](const Node& node) {
     if (const Node* given = node.find("fractures")) fractures_origin = given->origin;
+    weakening.cohesion = cohesion.is_constant() ? cohesion.at({}) : 0;
+    if (dilation && (node.find("dilation_angle") || dilation_limit))
+      throw InputError(node.find("dilation")->origin, "'dilation' and 'dilation_angle' exclude each other",
+                       "each says how far slip opens the fracture", "remove one of them");
+    if (dilation && dilation->is_constant() && !dilation->is_zero())
+      throw InputError(node.find("dilation")->origin, "'dilation' does not depend on the slip",
+                       "it is the opening that slip makes", "write a formula of slip, such as 0.1*slip");
     if (weakens && depends_on_rate)
       throw InputError(node.find("rate_and_state")->origin, "'rate_and_state' and 'weakening' exclude each other",
                        "each says how friction changes with slip", "remove one of them");
-    if (depends_on_rate && weakening.cohesion > 0)
+    if (depends_on_rate && !cohesion.is_zero())
       throw InputError(node.find("cohesion")->origin, "'cohesion' has no effect",
                        "with 'rate_and_state' walls always creep, and hold what that law says", "remove one of them");
     if (!weakens && weakening.tensile_strength > 0)

@@ -17,6 +17,7 @@
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
+#include "framework/assembly/state_fields.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
@@ -52,6 +53,8 @@ class HeatAdvection : public Coupler, public KeepsState, public FollowsMesh, pub
     if (rock_heat_ && matrix_) rock_ = {context, rock_heat_->temperature(), Location::cell, "rock", c};
     if (fracture_heat_ && fracture_)
       fractures_ = {context, fracture_heat_->temperature(), Location::fracture_cell, "fractures", c};
+    if (auto* formulas = dynamic_cast<TakesState*>(fracture_); formulas && fracture_heat_)
+      formulas->offer_state("T", {&fracture_heat_->temperature()});
     find_wells(context);
     for (const CarriedHeat* place : {&rock_, &fractures_})
       if (place->temperature) at_start_.push_back(place->temperature->now());

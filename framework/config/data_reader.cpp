@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "framework/config/expression.hpp"
+#include "framework/config/state.hpp"
 #include "framework/config/table.hpp"
 #include "framework/config/units.hpp"
 #include "framework/config/unknown_key.hpp"
@@ -220,6 +221,7 @@ std::optional<double> left_by_roundoff(double value, const Range& range, const D
   if (!std::isfinite(value) || !std::isfinite(bound) || !(is_below ? range.low_allowed : range.high_allowed))
     return std::nullopt;
   double scale = std::abs(bound);
+  const WithoutDerivatives of_probes;
   if (std::isfinite(range.high - range.low)) scale = std::max(scale, range.high - range.low);
   for (const double share : {0.0, 0.5, 2.0})
     for (const bool in_time : {false, true}) {

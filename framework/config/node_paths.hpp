@@ -16,6 +16,10 @@ inline std::string joined_path(const std::string& path, const std::string& name)
 inline std::string in_path(const std::string& path) { return path.empty() ? "in the scene" : "in " + quoted(path); }
 
 /// Gives the node and all below it their paths.
-void set_paths(Node& node, const std::string& path);
+inline void set_paths(Node& node, const std::string& path) {
+  node.path = path;
+  for (std::size_t i = 0; i < node.items.size(); ++i) set_paths(node.items[i], joined_path(path, std::to_string(i)));
+  for (Node::Entry& entry : node.entries) set_paths(entry.value, joined_path(path, entry.key));
+}
 
 }  // namespace sprekk

@@ -5,6 +5,7 @@
 #include "framework/config/expression.hpp"
 #include "framework/config/number.hpp"
 #include "framework/config/quantity_scale.hpp"
+#include "framework/config/state.hpp"
 #include "framework/config/units.hpp"
 
 namespace sprekk {
@@ -104,9 +105,9 @@ std::string with_products(const std::string& text) {
 
 /// Refuses an expression that has not the dimension of `unit`, or lacks a unit. `whole`: as it is written.
 void require_unit(const std::string& expression, const std::string& unit, const std::string& whole, const Origin& where,
-                  const std::string& name) {
+                  const std::string& name, const StateVariables& state) {
   const Dimension wanted = parse_unit(unit).dimension;
-  const LackOfUnit lack = lack_of_unit(expression, wanted, where);
+  const LackOfUnit lack = lack_of_unit(expression, wanted, where, state);
   if (lack == LackOfUnit::none) return;
   const std::string what = quoted(whole) + (name.empty() ? "" : " for " + quoted(name));
   const std::string needed =
@@ -122,14 +123,15 @@ void require_unit(const std::string& expression, const std::string& unit, const 
 }  // namespace
 
 Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name) {
+  const StateVariables& state = ReadsFormula::variables();
   const std::string content = trimmed(text);
   if (content.empty()) throw InputError(where, (name.empty() ? "the datum" : quoted(name)) + " is empty");
   require_plain_number(content, where, name);
   if (is_quantity(content)) return parse_quantity(content, unit, where, name);
   const Split split = split_off_unit(with_products(content));
   if (split.unit.empty()) {
-    require_unit(split.expression, unit, content, where, name);
-    return parse_expression(split.expression, 1, where);
+    require_unit(split.expression, unit, content, where, name, state);
+    return parse_expression(split.expression, 1, where, name, state);
   }
   const double scale = scale_to_si(split.unit, unit, content, where, name);
   if (!split.is_single_operand) {
@@ -137,11 +139,11 @@ Data parse_data(const std::string& text, const std::string& unit, const Origin& 
                      "it is not clear what the unit " + quoted(split.unit) + " belongs to",
                      "write " + quoted("(" + split.expression + ") " + split.unit) + " or multiply by the unit");
   }
-  if (lack_of_unit(split.expression, {}, where) != LackOfUnit::none)
+  if (lack_of_unit(split.expression, {}, where, state) != LackOfUnit::none)
     throw InputError(where, quoted(text) + (name.empty() ? "" : " for " + quoted(name)) + " has units twice",
                      "the unit " + quoted(split.unit) + " behind the expression multiplies those inside",
                      "keep one of them");
-  return parse_expression(split.expression, scale, where);
+  return parse_expression(split.expression, scale, where, name, state);
 }
 
 }  // namespace sprekk

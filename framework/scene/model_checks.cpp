@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "framework/assembly/state_fields.hpp"
 #include "framework/output/vtu_writer.hpp"
 
 namespace sprekk {
@@ -31,6 +32,8 @@ void Model::check_determined() const {
       throw InputError(scene_.schedule_origin(), "no step solves for " + field->name(),
                        "the schedule does not name component '" + spec.owner + "'", "add it to a 'solve'");
   }
+  for (const Part* part : parts_)
+    if (const auto* formulas = dynamic_cast<const TakesState*>(part)) formulas->require_state();
 }
 
 void Model::check_stages() const {

@@ -11,6 +11,7 @@
 #include "framework/config/expression.hpp"
 #include "framework/config/number.hpp"
 #include "framework/config/quantity_scale.hpp"
+#include "framework/config/state.hpp"
 #include "framework/config/table.hpp"
 #include "framework/config/unit.hpp"
 #include "framework/config/units.hpp"
@@ -107,8 +108,10 @@ class Properties {
       const Node* value = map.find(parameter.name);
       if (!value && parameter.about.material && materials) value = materials->find(parameter.name);
       if (!value) continue;
-      if (const UsualRange* usual = usual_range(spec, parameter.name, map))
+      if (const UsualRange* usual = usual_range(spec, parameter.name, map)) {
+        const ReadsFormula formula(formula_variables(spec.name(), parameter.name));
         read_value({parameter.name, "", parameter.about.unit, 0, "", *usual, {}}, *value, extent);
+      }
       if (!parameter.inner) continue;
       if (parameter.kind == "section") read_map(*parameter.inner, *value, extent);
       for (const Node::Entry& entry : value->entries)
@@ -161,6 +164,7 @@ class Properties {
   /// An expression takes the most unusual of its values.
   void read_scalar(PropertyValue property, const Node& node, const Extent& extent) {
     const Data data = parse_data(node.scalar, property.unit, node.origin, property.name);
+    if (!data.is_constant() && variables_named(data, {}, ReadsFormula::variables()) != 0) return;
     if (data.is_constant()) return add(std::move(property), data.at({}), node.scalar, node.origin);
     std::vector<double> times = {extent.from};
     if (data.depends_on_time()) times.insert(times.end(), {(extent.from + extent.to) / 2, extent.to});

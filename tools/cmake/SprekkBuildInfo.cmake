@@ -11,7 +11,7 @@ if(EXISTS ${moves_of_head})
 endif()
 
 set(entries)
-foreach(library VTK HDF5 Eigen3 Trilinos yaml-cpp fmt nlohmann_json CLI11 MUPARSER)
+foreach(library VTK HDF5 Eigen3 Trilinos yaml-cpp fmt nlohmann_json CLI11)
   if(DEFINED ${library}_VERSION)
     list(APPEND entries "{\"${library}\", \"${${library}_VERSION}\"}")
   endif()

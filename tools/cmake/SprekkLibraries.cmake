@@ -6,12 +6,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(GTest REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C)
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 link_libraries(Eigen3::Eigen)
-
-add_library(muparser INTERFACE)
-target_link_libraries(muparser INTERFACE PkgConfig::MUPARSER)
 
 find_library(GMSH_LIBRARY gmsh REQUIRED)
 find_path(GMSH_INCLUDE gmsh.h REQUIRED)

@@ -8,7 +8,7 @@ set(compiled_alone "^framework/(acceleration|frame_output)$")
 
 # What knows no dimension is compiled once; all else twice, for a plane as <name> and for space as <name>_space, from the same sources:
 # folders `plane` and `space` are for one of them. What is for a plane alone so far is listed here, and nowhere else.
-set(without_dimension "^framework/(module|parallel|picture|dense|linear)$")
+set(without_dimension "^framework/(formula|module|parallel|picture|dense|linear)$")
 set(in_a_plane_alone "^(framework/(remeshing|triangulation)|components/(contact|fine_fracture)|\
 components/(matrix_flow/ntpfa|poromechanics/mpsa|poromechanics/(rock|rock_loads|rock_operators|rock_stress|stress_operators)|wells)|\
 couplers/(aperture|two_level|well_exchange))(/|[.]cpp$|$)")
@@ -123,7 +123,7 @@ endfunction()
 function(sprekk_program_of dimension name)
   add_executable(${name} ${CMAKE_SOURCE_DIR}/tools/sprekk/main.cpp)
   set(libraries sprekk_command_line sprekk_components sprekk_couplers)
-  set(whole sprekk_config sprekk_plugin sprekk_dense sprekk_mesh sprekk_meshing sprekk_discretization sprekk_parallel sprekk_linear sprekk_field
+  set(whole sprekk_formula sprekk_config sprekk_plugin sprekk_dense sprekk_mesh sprekk_meshing sprekk_discretization sprekk_parallel sprekk_linear sprekk_field
             sprekk_assembly sprekk_output sprekk_schedule sprekk_scene)
   if(dimension EQUAL 3)
     sprekk_of_space(libraries ${libraries})

@@ -4,6 +4,8 @@
 
 #include "components/capabilities/usual_ranges.hpp"
 #include "components/contact/laws/closure_options.hpp"
+#include "components/contact/laws/formulas.hpp"
+#include "framework/config/state.hpp"
 
 namespace sprekk::contact {
 
@@ -47,6 +49,7 @@ Spec ClosureOptions::spec() {
       {"linear", "closure = pressure/stiffness"},
       {"barton_bandis",
        "pressure = stiffness c/(1 - c/largest), with the closure c (Bandis, Lumsden and Barton 1983)"}};
+  laws.emplace_back("formula", "the formula given as `closure`");
   for (const ClosureLaws::Type& type : closure_laws().types()) laws.emplace_back(type.name, type.doc);
   Spec spec("closure", "How far walls in contact approach each other under pressure.");
   spec.choice("law", law, std::move(laws),
@@ -59,6 +62,11 @@ Spec ClosureOptions::spec() {
                 {.unit = "m",
                  .range = non_negative(),
                  .doc = "The closure that is not passed, whatever the pressure (barton_bandis)."});
+  spec.data("closure", formula,
+            {.unit = "m",
+             .range = non_negative(),
+             .doc = "The closure by a formula. Below zero pressure it goes on linearly."});
+  may_be_formula(spec.name(), "closure", closure_variables());
   registered.add_sections(spec, closure_laws());
   spec.check([this](const Node& node) {
     registered.check(node, law, "law");
@@ -73,6 +81,10 @@ Spec ClosureOptions::spec() {
     if (is_barton_bandis && largest == 0)
       throw InputError(node.origin, "'largest' is missing", "the law of Barton and Bandis has a largest closure",
                        "give it in m, below the initial aperture of the fracture");
+    if ((law == "formula") != formula.has_value())
+      throw InputError(node.origin, formula ? "'closure' has no effect" : "'closure' is missing",
+                       "the law is '" + law + "'",
+                       formula ? "set law: formula, or remove it" : "give its formula in m");
     if (!is_barton_bandis && largest > 0)
       throw InputError(node.origin, "'largest' has no effect", "the law '" + law + "' has no largest closure",
                        "set law: barton_bandis, or remove it");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "framework/config/spec.hpp"
@@ -15,11 +16,12 @@ struct NoInput;
 /// Parameters of the closure.
 struct ClosureOptions {
   std::string law = "hard";
-  double stiffness = 0;  ///< Pa/m, at zero pressure
-  double largest = 0;    ///< m
+  double stiffness = 0;         ///< Pa/m, at zero pressure
+  double largest = 0;           ///< m
+  std::optional<Data> formula;  ///< m, of the closure
   LawChoice<Closure, NoInput> registered;
   Spec spec();
-  /// Null for hard walls.
+  /// Null for hard walls, and for a formula.
   std::unique_ptr<Closure> build() const;
 };
 

@@ -12,7 +12,18 @@ namespace sprekk::contact {
 struct Strength {
   double friction, cohesion = 0, tension = 0;
   double friction_by_path = 0, cohesion_by_path = 0, tension_by_path = 0;
+  /// Where friction and cohesion are formulas: by the size of the slip, the slip rate and the pressure between the
+  /// walls.
+  double friction_by_slip = 0, cohesion_by_slip = 0, friction_by_rate = 0, cohesion_by_rate = 0;
+  double friction_by_pressure = 0, cohesion_by_pressure = 0;
 };
+
+/// The loss of strength over slip, Pa/m, under this normal traction (Pa), in a step of length dt (s).
+inline double lost_by_slip(const Strength& s, double normal, double dt) {
+  double lost = s.friction_by_path * normal - s.cohesion_by_path;
+  lost += s.friction_by_slip * normal - s.cohesion_by_slip;
+  return dt > 0 ? lost + (s.friction_by_rate * normal - s.cohesion_by_rate) / dt : lost;
+}
 
 /// Linear weakening: with m = min(1, q/D) friction is mu_s − m (mu_s − mu_d), cohesion and tensile strength are 1 − m
 /// of their values at the start (for friction: Ida, J. Geophys. Res. 77 (1972) 3796; Andrews, J. Geophys. Res. 81

@@ -1,8 +1,10 @@
 #include "components/fracture_flow/laws/law_options.hpp"
 
-#include "components/capabilities/usual_ranges.hpp"
-
 #include <algorithm>
+
+#include "components/capabilities/usual_ranges.hpp"
+#include "components/fracture_flow/laws/formula_law.hpp"
+#include "framework/config/state.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -10,6 +12,7 @@ Spec LawOptions::spec() {
   Spec spec("law", "How well the fracture conducts, by its aperture a.");
   std::vector<std::pair<std::string, std::string>> types = hydraulic_law_names();
   types.emplace_back("constant", "the value given as transmissivity, whatever the aperture is");
+  types.emplace_back("formula", "the formula of the state given as transmissivity");
   spec.choice(
       "type", type, std::move(types),
       {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below the paper's Eq. 8"});
@@ -23,7 +26,8 @@ Spec LawOptions::spec() {
                  .doc = "Height of the asperities of a rough fracture.",
                  .source = "Lomize 1951; Witherspoon et al. 1980"});
   spec.data("transmissivity", transmissivity,
-            {.unit = "m^3", .range = non_negative(), .doc = "Of the constant law.", .in_time = true});
+            {.unit = "m^3", .range = non_negative(), .doc = "Of the constant law, or a formula.", .in_time = true});
+  may_be_formula(spec.name(), "transmissivity", conduction_variables());
   usually(spec, "transmissivity", usual_transmissivity());
   spec.data(
       "inertia", inertia,
@@ -36,12 +40,14 @@ Spec LawOptions::spec() {
   registered.add_sections(spec, hydraulic_laws());
   spec.check([this](const Node& node) {
     registered.check(node, type, "type");
-    const bool is_constant = type == "constant";
-    if (is_constant && !transmissivity)
-      throw InputError(node.origin, "'transmissivity' is missing", "the law is constant", "give it in m^3");
-    if (!is_constant && transmissivity)
+    const bool is_constant = type == "constant", is_given = is_constant || type == "formula";
+    if (is_given && !transmissivity)
+      throw InputError(node.origin, "'transmissivity' is missing",
+                       is_constant ? "the law is constant" : "the law is a formula", "give it in m^3");
+    if (!is_given && transmissivity)
       throw InputError(node.origin, "'transmissivity' has no effect",
-                       "it follows from the aperture by the " + type + " law", "write 'type: constant', or remove it");
+                       "it follows from the aperture by the " + type + " law",
+                       "write 'type: constant' or 'type: formula', or remove it");
     if (is_constant && residual)
       throw InputError(node.origin, "'residual' has no effect",
                        "a constant transmissivity does not depend on the aperture",
@@ -59,7 +65,7 @@ std::unique_ptr<HydraulicLaw> LawOptions::make(double floor) const {
   const double lowest = std::max(floor, residual.value_or(0));
   if (auto law = registered.build(type, lowest)) return law;
   // Where the transmissivity is given, the aperture across the fracture is that of smooth walls.
-  return make_hydraulic_law(type == "constant" ? "cubic" : type, {lowest, roughness.value_or(0)});
+  return make_hydraulic_law(type == "constant" || type == "formula" ? "cubic" : type, {lowest, roughness.value_or(0)});
 }
 
 }  // namespace sprekk::fracture_flow

@@ -20,7 +20,9 @@ Conductance FractureFlow::conductance(const Link& link) const {
   const double half = half_length(link.first, link.ridge);
   if (link.second == none) {
     const Transmissivity first = transmissivity(link.first, link.ridge);
-    return {first.value / half, {{link.first, first.by_aperture / half}}};
+    Conductance open{first.value / half, {{link.first, first.by_aperture / half}}};
+    append_by_state(open.by_aperture, link.first, 1 / half, first.by_state);
+    return open;
   }
   if (!options_.is_constant()) return conductance_by_opening(link);
   const double other_half = half_length(link.second, link.ridge);
@@ -39,23 +41,27 @@ std::array<FractureFlow::HydraulicHalf, 2> FractureFlow::halves_by_opening(const
   };
   const std::array<HalfCellAperture, 2> halves = halves_of(aperture_.now());
   const std::array<HalfCellAperture, 2> held = is_held() ? halves_of(held_aperture_) : halves;
-  return {HydraulicHalf{hydraulic_aperture(halves[0].value, held[0].value), halves[0].by_aperture},
-          HydraulicHalf{hydraulic_aperture(halves[1].value, held[1].value), halves[1].by_aperture}};
+  return {HydraulicHalf{hydraulic_aperture(link.first, halves[0].value, held[0].value), halves[0].by_aperture},
+          HydraulicHalf{hydraulic_aperture(link.second, halves[1].value, held[1].value), halves[1].by_aperture}};
 }
 
 Conductance FractureFlow::conductance_by_opening(const Link& link) const {
   const std::array<HydraulicHalf, 2> halves = halves_by_opening(link);
   const std::array<int, 2> cells = {link.first, link.second};
   double resistance = 0;
-  std::array<double, 2> by_aperture = {0, 0};
+  std::array<double, 2> by_aperture = {0, 0}, by_hydraulic;
   for (int i = 0; i < 2; ++i) {
-    const auto [a, by_present] = halves[i].hydraulic;
+    const auto& [a, by_present, by_state] = halves[i].hydraulic;
     const double own = 12 * viscosity_[cells[i]] * half_length(cells[i], link.ridge) / (a * a * a);
     resistance += own;
+    by_hydraulic[i] = 3 * own / a;
     for (int k = 0; k < 2; ++k) by_aperture[k] -= 3 * own / a * by_present * halves[i].by_aperture[k];
   }
   const double value = 1 / resistance;
-  return {value, {{link.first, -value * value * by_aperture[0]}, {link.second, -value * value * by_aperture[1]}}};
+  Conductance c{value, {{link.first, -value * value * by_aperture[0]}, {link.second, -value * value * by_aperture[1]}}};
+  for (int i = 0; i < 2; ++i)
+    append_by_state(c.by_aperture, cells[i], value * value * by_hydraulic[i], halves[i].hydraulic.by_state);
+  return c;
 }
 
 std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
@@ -66,11 +72,10 @@ std::vector<JunctionFluxes> FractureFlow::junction_fluxes() const {
     std::vector<JunctionFluxes::Half> halves =
         options_.is_constant() ? given_halves(junction) : halves_by_opening(junction);
     for (std::size_t k = 0; k < halves.size(); ++k)
-      if (!is_in_fracture_cell(junction.cells[k]))
-        halves[k] = {0, Vector::Zero(static_cast<Eigen::Index>(halves.size()))};
+      if (!is_in_fracture_cell(junction.cells[k])) halves[k] = {0, no_derivatives(junction)};
     if (has_inertia()) slow_down(junction, halves);
     pass_crossing(j, walls, halves);
-    fluxes.emplace_back(junction, std::move(halves));
+    fluxes.emplace_back(junction, mesh_.fracture_cell_count(), std::move(halves));
   }
   return fluxes;
 }
@@ -89,7 +94,7 @@ void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
   const Junction& at = mesh_.junctions[junction];
   if (fill.through != none && !is_in_fracture_cell(mesh_.fractures[fill.through].first_cell)) {
     // A dry fracture lets nothing through.
-    for (JunctionFluxes::Half& half : halves) half = {0, Vector::Zero(static_cast<Eigen::Index>(at.cells.size()))};
+    for (JunctionFluxes::Half& half : halves) half = {0, no_derivatives(at)};
     return;
   }
   std::vector<CrossingArm> arms;
@@ -122,8 +127,7 @@ std::vector<JunctionFluxes::Half> FractureFlow::given_halves(const Junction& jun
   std::vector<JunctionFluxes::Half> halves;
   for (const int cell : junction.cells) {
     const double half = half_length(cell, junction.ridges.front());
-    halves.push_back({transmissivity(cell, junction.ridges.front()).value / half,
-                      Vector::Zero(static_cast<Eigen::Index>(junction.cells.size()))});
+    halves.push_back({transmissivity(cell, junction.ridges.front()).value / half, no_derivatives(junction)});
   }
   return halves;
 }
@@ -149,10 +153,13 @@ std::vector<JunctionFluxes::Half> FractureFlow::halves_by_opening(const Junction
   const std::vector<ArmAperture> held = is_held() ? arms_of(held_aperture_) : arms;
   std::vector<JunctionFluxes::Half> halves;
   for (int i = 0; i < count; ++i) {
-    const auto [a, by_present] = hydraulic_aperture(arms[i].value, held[i].value);
+    const auto [a, by_present, by_state] = hydraulic_aperture(junction.cells[i], arms[i].value, held[i].value);
     const double half = half_length(junction.cells[i], junction.ridges.front());
     const double value = a * a * a / (12 * viscosity_[junction.cells[i]] * half);
-    halves.push_back({value, 3 * value / a * by_present * arms[i].by_aperture});
+    halves.push_back({value, no_derivatives(junction)});
+    halves.back().by_aperture.head(count) = 3 * value / a * by_present * arms[i].by_aperture;
+    for (std::size_t k = 0; k < named_.size(); ++k)
+      halves.back().by_aperture[i + count * static_cast<int>(k + 1)] = 3 * value / a * by_state[named_[k]];
   }
   return halves;
 }
@@ -174,13 +181,16 @@ FractureFlow::FurtherDrop FractureFlow::further_drop(const Link& link) const {
     if (t.value == 0) continue;
     // The resistance over a length, and its derivatives; inertia adds beta rho |v|/h^2.
     double resistance = 1 / t.value, by_aperture = -t.by_aperture / (t.value * t.value), inertia = 0;
+    ByState by_state = t.by_state;
+    for (double& by : by_state) by *= -1 / (t.value * t.value);
     Speed at{0, {}};
     if (has_inertia()) {
-      const HydraulicAperture h = aperture_of_inertia(cell, t);
+      const Hydraulic h = aperture_of_inertia(cell, t);
       at = speed(cell, link.ridge);
       inertia = inertia_[cell] * options_.fluid_density / (h.value * h.value);
       resistance += inertia * at.value;
       by_aperture -= 2 * inertia * at.value / h.value * h.by_aperture;
+      for (std::size_t k = 0; k < by_state.size(); ++k) by_state[k] -= 2 * inertia * at.value / h.value * h.by_state[k];
     }
     double own = 0;
     for (const auto& [ridge, factor] : factors) {
@@ -190,8 +200,27 @@ FractureFlow::FurtherDrop FractureFlow::further_drop(const Link& link) const {
     drop.value += own * resistance;
     for (const auto& [ridge, by] : at.by_flux) drop.by_flux.emplace_back(ridge, own * inertia * by);
     if (by_aperture != 0) drop.by_aperture.emplace_back(cell, own * by_aperture);
+    append_by_state(drop.by_aperture, cell, own, by_state);
   }
   return drop;
+}
+
+/// The columns of the apertures, and those of each further variable of the formula, which may be a sum of fields.
+void FractureFlow::derive_by_state(Assembly& assembly, const std::vector<Triplet>& entries) const {
+  const int points = flux_.size(), count = mesh_.fracture_cell_count();
+  const auto derive = [&](int kind, const StateField& by) {
+    std::vector<Triplet> own;
+    const int components = by.field->spec().components;
+    for (const Triplet& entry : entries)
+      if (entry.col() / count == kind)
+        own.emplace_back(entry.row(), entry.col() % count * components + by.component, by.factor * entry.value());
+    SparseMatrix matrix(points, by.field->size());
+    matrix.setFromTriplets(own.begin(), own.end());
+    assembly.derivative(flux_, *by.field, std::move(matrix));
+  };
+  derive(0, {&aperture_});
+  for (std::size_t k = 0; k < named_.size(); ++k)
+    for (const StateField& source : state_.of(named_[k])) derive(static_cast<int>(k + 1), source);
 }
 
 void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
@@ -216,11 +245,10 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
   assembly.compare_round_off(flux_, rows.largest_pressure);
   assembly.diagonal(flux_, flux_, rows.of_flux);
   if (!assembly.wants_derivatives()) return;
-  SparseMatrix pressures(points, count), apertures(points, count);
+  SparseMatrix pressures(points, count);
   pressures.setFromTriplets(rows.by_pressure.begin(), rows.by_pressure.end());
-  apertures.setFromTriplets(rows.by_aperture.begin(), rows.by_aperture.end());
   assembly.derivative(flux_, pressure_, std::move(pressures));
-  assembly.derivative(flux_, aperture_, std::move(apertures));
+  derive_by_state(assembly, rows.by_aperture);
   if (density_) assemble_density(assembly, rows);
   if (rows.by_flux.empty()) return;
   SparseMatrix fluxes(points, points);
@@ -263,7 +291,9 @@ void FractureFlow::add_pattern(const Link& link, FluxRows& rows) const {
   const Junction& junction = mesh_.junctions[link.junction];
   for (const int cell : {link.first, link.second}) rows.by_pressure.emplace_back(link.ridge, cell, 0);
   for (const auto& [cell, weight] : link.by_density) rows.by_density.emplace_back(link.ridge, cell, 0);
-  for (const int cell : junction.cells) rows.by_aperture.emplace_back(link.ridge, cell, 0);
+  for (const int cell : junction.cells)
+    for (int k = 0; k < kinds_of_columns(); ++k)
+      rows.by_aperture.emplace_back(link.ridge, cell + k * mesh_.fracture_cell_count(), 0);
   for (const int point : junction.ridges)
     if (point != link.ridge) rows.by_flux.emplace_back(link.ridge, point, 0);
   for (const auto& [ridge, by] : further_drop(link).by_flux) rows.by_flux.emplace_back(link.ridge, ridge, 0);

@@ -39,6 +39,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
           mesh_, amounts_with(pressure_, context.name, "cumulative_balance", volume_unit,
                               "Fluid stored, injected, and flowed out through the outer boundary", 3))),
       wet_(fracture_set(mesh_, options_.fractures, options_.fractures_origin)),
+      state_(conduction_variables()),
       outflows_(mesh_) {
   if (mesh_.fracture_cell_count() == 0)
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
@@ -75,6 +76,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     if (!is_in_fracture_cell(i)) initial_pressure[i] = 0;
   pressure_.set_both(std::move(initial_pressure));
   law_ = options_.law.make(options_.aperture_floor);
+  prepare_formula();
   viscosity_ = property(options_.viscosity);
   compressibility_ = property(options_.fluid_compressibility);
   inertia_ = property(options_.law.inertia);
@@ -172,6 +174,7 @@ void FractureFlow::evaluate_data(const StepTime& step) {
                             &given_wall_permeability_[1]})
     means->evaluate(step);
   for (MeansAlong& means : transmissivity_of_part_) means.evaluate(step);
+  if (formula_) formula_->set_time(step.end);
   make_links(step);
   prescribe(step);
 }
@@ -182,19 +185,10 @@ void FractureFlow::change_viscosity(const Vector& viscosity) {
   if (viscosity_.values() != viscosity) viscosity_.set(viscosity);
 }
 
-HydraulicAperture FractureFlow::hydraulic_aperture(double present, double held) const {
-  const auto [now, by_aperture] = law_->at(present);
-  if (!is_held()) return {now, by_aperture};
-  const double value = std::pow(law_->at(held).value, 1 - released_share_) * std::pow(now, released_share_);
-  return {value, released_share_ * value / now * by_aperture};
-}
-
-HydraulicAperture FractureFlow::hydraulic_aperture(int cell) const {
-  return hydraulic_aperture(aperture_.now()[cell], is_held() ? held_aperture_[cell] : 0);
-}
-
 void FractureFlow::set_search_mode(SearchMode mode) {
   held_aperture_ = mode == SearchMode::piecewise_linear ? aperture_.now() : Vector();
+  held_state_.clear();
+  for (int i = 0; formula_ && i < held_aperture_.size(); ++i) held_state_.push_back(state_in(i));
   held_flux_ = mode == SearchMode::piecewise_linear && has_inertia() ? flux_.now() : Vector();
   released_share_ = 0;
 }
@@ -222,12 +216,6 @@ double FractureFlow::given_transmissivity(int cell, int point) const {
   return transmissivity_of_part_[nearest - at.ridges.begin()][cell];
 }
 
-FractureFlow::Transmissivity FractureFlow::cubic_law(int cell) const {
-  const double viscosity = viscosity_[cell];
-  const auto [a, by_present] = hydraulic_aperture(cell);
-  return {a * a * a / (12 * viscosity), a * a / (4 * viscosity) * by_present};
-}
-
 bool FractureFlow::follows_aperture() const {
   return !options_.is_constant() && std::ranges::count(is_prescribed_, 0) > 0;
 }
@@ -244,7 +232,7 @@ FractureFluid::NormalPermeability FractureFlow::normal_permeability() const {
     } else if (options_.normal_permeability == "constant") {
       kappa.value[w] = given_normal_permeability_[i];
     } else {
-      const auto [a, by_present] = hydraulic_aperture(i);
+      const auto [a, by_present, by_state] = hydraulic_aperture(i);
       const Transmissivity t = transmissivity(i);
       kappa.value[w] = 2 * t.value / (a * a);
       kappa.by_aperture[w] = 2 * t.by_aperture / (a * a) - 4 * t.value / (a * a * a) * by_present;
@@ -350,7 +338,7 @@ std::vector<double> FractureFlow::switch_times() const {
 void FractureFlow::report(std::vector<Quantity>& quantities) const {
   int floored = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-    if (law_->at(aperture_.now()[i]).by_aperture == 0) ++floored;
+    if (hydraulic_by_law(i, state_in(i)).by_aperture == 0) ++floored;
   quantities.push_back({name() + ".cells_at_aperture_floor", "1", static_cast<double>(floored)});
   report_rates(quantities);
   if (!empty_) return;

@@ -11,7 +11,7 @@
 #include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
-#include "components/fracture_flow/laws/hydraulic_law.hpp"
+#include "components/fracture_flow/laws/formula_law.hpp"
 #include "components/fracture_flow/tpfa/junction_fluxes.hpp"
 #include "components/fracture_flow/tpfa/mean_along.hpp"
 #include "components/fracture_flow/tpfa/mimetic_drops.hpp"
@@ -27,6 +27,7 @@
 #include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/assembly/state_fields.hpp"
 #include "framework/scene/component.hpp"
 
 namespace sprekk::fracture_flow {
@@ -41,6 +42,11 @@ namespace sprekk::fracture_flow {
 /// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
 /// pressures, and the flux out of one cell enters the next one to the bit. Properties are those at the end of the step.
 ///
+/// Where the transmissivity is a formula of the state, the hydraulic aperture of a half cell follows from the aperture
+/// there, and from what else the formula names in its cell. `by_aperture` in lists and vectors of derivatives then has
+/// further columns behind those of the apertures: with n fracture cells, column n + k n + i is the k-th further
+/// variable in cell i.
+///
 /// With Options::fractures there is a flow in these fractures only. In all others the row of p is p = 0, no flux has a
 /// conductance, and walls are sealed.
 class FractureFlow : public Component,
@@ -54,7 +60,8 @@ class FractureFlow : public Component,
                      public KeepsTotals,
                      public LivesInPart,
                      public MayStoreNothing,
-                     public NotesStart {
+                     public NotesStart,
+                     public TakesState {
  public:
   FractureFlow(const ComponentContext& context, const Options& options);
 
@@ -116,20 +123,42 @@ class FractureFlow : public Component,
   double weight_between(const Point& from, const Point& to) const override;
   bool density_varies() const override { return density_ != nullptr; }
   void accept_density(const FluidDensity& in_fractures) override { density_ = &in_fractures; }
+  void offer_state(const std::string& variable, const StateField& source) override { state_.offer(variable, source); }
+  void require_state() const override;
 
  private:
+  /// Derivatives by the variables of a formula; that by the aperture stands elsewhere.
+  using ByState = ConductionState;
+  /// The hydraulic aperture by the law, m.
+  struct Hydraulic {
+    double value, by_aperture;
+    ByState by_state = {};
+  };
   /// K/mu (m^2/(Pa s) times m, Eq. 8 of the paper) of a cell and its derivative by the aperture.
   struct Transmissivity {
     double value, by_aperture;
+    ByState by_state = {};
   };
+  using Derivatives = std::vector<std::pair<int, double>>;
+  /// Appends `factor` times the derivatives by what the formula names besides the aperture, in a cell.
+  void append_by_state(Derivatives& derivatives, int cell, double factor, const ByState& by_state) const;
+  /// The number of columns of derivatives by apertures, with those behind, over that of cells.
+  Eigen::Index kinds_of_columns() const { return 1 + std::ssize(named_); }
+  /// Zero derivatives by the apertures of the cells of a junction, with those behind.
+  Vector no_derivatives(const Junction& junction) const {
+    return Vector::Zero(kinds_of_columns() * std::ssize(junction.cells));
+  }
+  void prepare_formula();
+  ConductionState state_in(int cell) const;  ///< the aperture is not set
   Transmissivity transmissivity(int cell) const;
   /// The same for the half of the cell at one of its points.
   Transmissivity transmissivity(int cell, int point) const;
   Transmissivity cubic_law(int cell) const;
   bool is_held() const { return held_aperture_.size() > 0; }
   /// By the law, from the present aperture and the held one, if any; the derivative is by the present one.
-  HydraulicAperture hydraulic_aperture(double present, double held) const;
-  HydraulicAperture hydraulic_aperture(int cell) const;
+  Hydraulic hydraulic_aperture(int cell, double present, double held) const;
+  Hydraulic hydraulic_aperture(int cell) const;
+  Hydraulic hydraulic_by_law(int cell, ConductionState state) const;
   /// A point through which fluid can flow.
   struct Link {
     int ridge;
@@ -151,7 +180,7 @@ class FractureFlow : public Component,
   Conductance conductance_by_opening(const Link& link) const;
   /// The hydraulic aperture of a half cell, with the derivatives of its aperture by those of both cells at a point.
   struct HydraulicHalf {
-    HydraulicAperture hydraulic;
+    Hydraulic hydraulic;
     std::array<double, 2> by_aperture;
   };
   std::array<HydraulicHalf, 2> halves_by_opening(const Link& link) const;
@@ -197,10 +226,11 @@ class FractureFlow : public Component,
   Speed speed(int cell, int ridge, const Vector& flux) const;
   /// As inertia takes it: held, or released in part.
   Speed speed(int cell, int ridge) const;
-  HydraulicAperture aperture_of_inertia(int cell, const Transmissivity& transmissivity) const;
+  Hydraulic aperture_of_inertia(int cell, const Transmissivity& transmissivity) const;
   std::array<Conductance, 2> inertia(const Link& link) const;
   void add_inertia(const Link& link, const Conductance& conductance, FluxRows& rows) const;
   void slow_down(const Junction& junction, std::vector<JunctionFluxes::Half>& halves) const;
+  void derive_by_state(Assembly& assembly, const std::vector<Triplet>& entries) const;
   void assemble_fluxes(Assembly& assembly, const StepTime& step) const;
   void add_row(const Link& link, const Conductance& conductance, FluxRows& rows) const;
   void add_row(const Link& link, const JunctionFluxes::Flux& flux, FluxRows& rows) const;
@@ -278,8 +308,13 @@ class FractureFlow : public Component,
   std::vector<char> wet_;  ///< one flag a cell: whether there is a flow; empty where there is a flow everywhere
   Vector initial_aperture_;
   std::unique_ptr<HydraulicLaw> law_;
-  Vector held_aperture_;       ///< for the cubic law, or empty for the present one
-  Vector held_flux_;           ///< m^2/s, the flux that inertia is computed with; empty: the current flux
+  std::optional<StateFormula> formula_;      ///< of the transmissivity, instead of the law
+  double lowest_ = 0;                        ///< m, of the hydraulic aperture by a formula
+  StateFields state_;                        ///< what the formula may name
+  std::vector<std::size_t> named_;           ///< variables that it names, without the aperture
+  std::vector<ConductionState> held_state_;  ///< of each cell, where apertures are held
+  Vector held_aperture_;                     ///< for the cubic law, or empty for the present one
+  Vector held_flux_;                         ///< m^2/s, the flux that inertia is computed with; empty: the current flux
   double released_share_ = 0;  ///< share of the change from the held to the present apertures that the cubic law takes
   Property viscosity_, compressibility_;
   bool viscosity_is_given_ = false;  ///< by a coupler

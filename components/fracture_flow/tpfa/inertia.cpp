@@ -46,7 +46,7 @@ FractureFlow::Speed FractureFlow::speed(int cell, int ridge) const {
   return now;
 }
 
-HydraulicAperture FractureFlow::aperture_of_inertia(int cell, const Transmissivity& transmissivity) const {
+FractureFlow::Hydraulic FractureFlow::aperture_of_inertia(int cell, const Transmissivity& transmissivity) const {
   if (options_.is_constant()) return {std::cbrt(12 * viscosity_[cell] * transmissivity.value), 0};
   return hydraulic_aperture(cell);
 }
@@ -60,7 +60,7 @@ std::array<Conductance, 2> FractureFlow::inertia(const Link& link) const {
   for (const int i : {0, 1}) {
     const int cell = i == 0 ? link.first : link.second;
     if (cell == none) continue;
-    const HydraulicAperture hydraulic =
+    const Hydraulic hydraulic =
         is_by_opening ? halves[i].hydraulic : aperture_of_inertia(cell, transmissivity(cell, link.ridge));
     const double factor = inertia_[cell] * options_.fluid_density * half_length(cell, link.ridge);
     of_halves[i].value = factor / (hydraulic.value * hydraulic.value);
@@ -70,6 +70,7 @@ std::array<Conductance, 2> FractureFlow::inertia(const Link& link) const {
                                   {link.second, by * halves[i].by_aperture[1]}};
     else if (!options_.is_constant())
       of_halves[i].by_aperture = {{cell, by}};
+    append_by_state(of_halves[i].by_aperture, cell, -2 * of_halves[i].value / hydraulic.value, hydraulic.by_state);
   }
   return of_halves;
 }

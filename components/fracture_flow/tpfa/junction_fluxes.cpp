@@ -13,8 +13,8 @@ void add(double factor, const Derivatives& given, Derivatives& sum) {
 
 }  // namespace
 
-JunctionFluxes::JunctionFluxes(const Junction& junction, std::vector<Half> halves)
-    : junction_(junction), halves_(std::move(halves)) {
+JunctionFluxes::JunctionFluxes(const Junction& junction, int fracture_cells, std::vector<Half> halves)
+    : junction_(junction), fracture_cells_(fracture_cells), halves_(std::move(halves)) {
   const int count = static_cast<int>(junction_.cells.size());
   for (int i = 0; i < count; ++i) {
     sum_ += halves_[i].value;
@@ -42,7 +42,10 @@ JunctionFluxes::Flux::Part JunctionFluxes::part(int from, int to, double sign) c
 
 std::vector<std::pair<int, double>> JunctionFluxes::by_cell(const Vector& by_aperture) const {
   Derivatives derivatives;
-  for (Eigen::Index k = 0; k < by_aperture.size(); ++k) derivatives.emplace_back(junction_.cells[k], by_aperture[k]);
+  const auto count = std::ssize(junction_.cells);
+  for (Eigen::Index k = 0; k < by_aperture.size(); ++k)
+    derivatives.emplace_back(junction_.cells[k % count] + static_cast<int>(k / count) * fracture_cells_,
+                             by_aperture[k]);
   return derivatives;
 }
 
@@ -53,7 +56,7 @@ JunctionFluxes::Flux JunctionFluxes::flux(int place) const {
   if (i != hub_ && j != hub_) flux.parts = {part(i, j, 1), part(j, i, -1)};
   const double to_i = halves_[i].value / sum_, to_j = halves_[j].value / sum_;
   flux.conductance.value = halves_[i].value * to_j;
-  Vector by_aperture = Vector::Zero(static_cast<Eigen::Index>(halves_.size()));
+  Vector by_aperture = Vector::Zero(halves_.front().by_aperture.size());
   for (int k = 0; k < static_cast<int>(halves_.size()); ++k) {
     const double by = (k == i ? to_j : 0) + (k == j ? to_i : 0) - to_i * to_j;
     by_aperture += by * halves_[k].by_aperture;

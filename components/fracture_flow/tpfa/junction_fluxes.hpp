@@ -26,15 +26,16 @@ struct Conductance {
 /// from pressures; the others follow from these fluxes: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
 class JunctionFluxes {
  public:
-  /// The conductance t_i, m^2/(Pa s), and its derivatives by the apertures of the junction's cells and by the fluxes
-  /// through points.
+  /// The conductance t_i, m^2/(Pa s), and its derivatives by the apertures of the junction's cells, and by further
+  /// variables of these cells one after the other, and by the fluxes through points.
   struct Half {
     double value;
     Vector by_aperture;
     std::vector<std::pair<int, double>> by_flux = {};
   };
-  /// `halves`: one for each of the junction's cells.
-  JunctionFluxes(const Junction& junction, std::vector<Half> halves);
+  /// `halves`: one for each of the junction's cells. `fracture_cells`: the number of all cells, by which the columns of
+  /// a further variable lie behind those before.
+  JunctionFluxes(const Junction& junction, int fracture_cells, std::vector<Half> halves);
 
   /// A flux between two cells: the conductance times the pressure drop for a flux of the hub, or else the sum of shares
   /// of the fluxes through other points.
@@ -57,6 +58,7 @@ class JunctionFluxes {
   std::vector<std::pair<int, double>> by_cell(const Vector& by_aperture) const;
 
   const Junction& junction_;
+  int fracture_cells_;
   std::vector<Half> halves_;
   std::vector<std::pair<int, int>> ends_;  ///< per point: the places of its cells among the junction's
   double sum_ = 0;

@@ -1,6 +1,12 @@
 #include "components/fracture_flow/tpfa/options.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 #include "components/capabilities/fluid_options.hpp"
+#include "components/fracture_flow/laws/formula_law.hpp"
+#include "framework/config/data_reader.hpp"
+#include "framework/config/state.hpp"
 #include "framework/config/unknown_key.hpp"
 #include "framework/field/units_of_amounts.hpp"
 
@@ -88,10 +94,11 @@ void Options::declare_grown(Spec& spec) {
 }
 
 void Options::declare_conduction(Spec& spec) {
-  spec.choice(
-      "transmissivity", transmissivity,
-      {{"cubic_law", "a^3/12"}, {"constant", "the value given as transmissivity_value"}},
-      {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below the paper's Eq. 8"});
+  spec.text("transmissivity", transmissivity,
+            {.doc = "How the tangential transmissivity K_i follows from the aperture: cubic_law, a^3/12; constant, the "
+                    "value given as transmissivity_value; or a formula in m^3.",
+             .source = "below the paper's Eq. 8"});
+  may_be_formula(spec.name(), "transmissivity", conduction_variables());
   spec.data(
       "transmissivity_value", transmissivity_value,
       {.unit = "m^3", .range = non_negative(), .doc = "The transmissivity, where it is constant.", .in_time = true});
@@ -150,7 +157,27 @@ void Options::declare_places(Spec& spec) {
                       {.doc = "Where fractures end on a side; else no fluid flows out there."});
 }
 
+/// Reads the transmissivity where it is none of the two words.
+void Options::read_transmissivity(const Node& node) {
+  if (transmissivity == "cubic_law" || transmissivity == "constant") return;
+  const Node* given = node.find("transmissivity");
+  const bool is_name =
+      std::ranges::all_of(transmissivity, [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; });
+  if (is_name && transmissivity != "a")
+    throw unknown_name(given->origin, "value of 'transmissivity':", transmissivity, {"cubic_law", "constant"});
+  const ReadsFormula formula(&conduction_variables());
+  const About about{.unit = "m^3", .range = non_negative(), .in_time = true};
+  const Data data = read_data(*given, {"transmissivity", about, {}});
+  if (!data.is_constant() && variables_named(data, {}, conduction_variables()) != 0) {
+    transmissivity_formula = data;
+  } else {
+    transmissivity = "constant";
+    transmissivity_value = data;
+  }
+}
+
 void Options::check(const Node& node) {
+  read_transmissivity(node);
   for (const auto& [side, end] : ends)
     if (end.pressure) boundary.insert_or_assign(side, *end.pressure);
   if (const Origin* through = crossings.find_through(); through && !is_constant() && !has_given_walls())

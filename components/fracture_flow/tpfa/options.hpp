@@ -47,10 +47,11 @@ struct Options {
   Data initial_pressure;       ///< Pa
   double grown_aperture = 0;   ///< m
   std::string grown_fluid = "drawn";
-  double aperture_floor = 1e-7;  ///< m
-  std::string transmissivity = "cubic_law";
-  std::optional<Data> transmissivity_value;  ///< m^3
-  bool has_law = false;                      ///< whether `law` says it, and the two above do not
+  double aperture_floor = 1e-7;                ///< m
+  std::string transmissivity = "cubic_law";    ///< or "constant", or the text of a formula
+  std::optional<Data> transmissivity_formula;  ///< m^3
+  std::optional<Data> transmissivity_value;    ///< m^3
+  bool has_law = false;                        ///< whether `law` says it, and the two above do not
   LawOptions law;
   std::string normal_permeability = "cubic_law";
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
@@ -76,7 +77,14 @@ struct Options {
   bool has_given_walls() const {
     return normal_permeability == "constant" || (wall_permeability[0] && wall_permeability[1]);
   }
+  /// The transmissivity as a datum, m^3, where it is not constant and follows no law; else nullptr.
+  const Data* conduction_formula() const {
+    if (has_law) return law.type == "formula" ? &*law.transmissivity : nullptr;
+    return transmissivity_formula ? &*transmissivity_formula : nullptr;
+  }
   const std::optional<Data>& given_transmissivity() const {
+    static const std::optional<Data> none_given;
+    if (conduction_formula()) return none_given;
     return has_law ? law.transmissivity : transmissivity_value;
   }
 
@@ -85,6 +93,7 @@ struct Options {
   void declare_grown(Spec& spec);
   void declare_conduction(Spec& spec);
   void declare_places(Spec& spec);  ///< of injections, prescribed pressures and sides
+  void read_transmissivity(const Node& node);
   void check(const Node& node);
 };
 

@@ -95,7 +95,7 @@ std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home)
     pass_crossing(junction - mesh_.junctions.begin(), walls_of_crossings(), values);
     const auto by_cell = [&](const Vector& by_aperture) {
       std::vector<std::pair<int, double>> derivatives;
-      for (Eigen::Index i = 0; i < by_aperture.size(); ++i)
+      for (Eigen::Index i = 0; i < std::ssize(junction->cells); ++i)
         if (by_aperture[i] != 0) derivatives.emplace_back(junction->cells[i], by_aperture[i]);
       return derivatives;
     };
@@ -106,7 +106,7 @@ std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home)
     const std::array<HydraulicHalf, 2> values = halves_by_opening(Link{point, end.cells[0], end.cells[1], none, none});
     for (int k = 0; k < 2; ++k) {
       const int cell = end.cells[k];
-      const auto [a, by_present] = values[k].hydraulic;
+      const auto& [a, by_present, by_state] = values[k].hydraulic;
       HalfCell half{cell, a * a * a / (12 * viscosity_[cell] * half_length(cell, point)), {}};
       for (int i = 0; i < 2; ++i)
         half.by_aperture.emplace_back(end.cells[i], 3 * half.conductance / a * by_present * values[k].by_aperture[i]);
@@ -114,7 +114,7 @@ std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home)
     }
   } else {
     for (const int cell : end.cells) {
-      const auto [value, by_aperture] = transmissivity(cell, point);
+      const auto [value, by_aperture, by_state] = transmissivity(cell, point);
       HalfCell half{cell, value / half_length(cell, point), {}};
       if (by_aperture != 0) half.by_aperture.emplace_back(cell, by_aperture / half_length(cell, point));
       halves.push_back(std::move(half));
@@ -188,7 +188,7 @@ double FractureFlow::bore_at(const FracturePlace& where, int cell) {
 
 FractureFluid::Rise FractureFlow::rise_of(const OpenPoint& point) const {
   if constexpr (dimension == 2) return rise_at(point.cell, point.at);
-  const auto [value, by_aperture] = transmissivity(point.cell);
+  const auto [value, by_aperture, by_state] = transmissivity(point.cell);
   if (point.bore == 0 || value == 0) return {};
   return {point.bore / value, {{point.cell, -point.bore / (value * value) * by_aperture}}};
 }

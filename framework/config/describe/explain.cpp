@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "framework/config/describe/parameter_text.hpp"
+#include "framework/config/state.hpp"
 #include "framework/config/usual_range.hpp"
 
 namespace sprekk {
@@ -44,6 +45,7 @@ std::string described(const Spec& spec, std::size_t indentation) {
   std::string text;
   for (const Parameter& parameter : spec.parameters()) {
     text += described(parameter, indentation);
+    text += wrapped(formula_text(spec.name(), parameter.name), indentation + 4);
     if (const UsualRange* usual = usual_range(spec, parameter.name))
       text += wrapped("As a rule it is " + usual_text(*usual, parameter.about.unit) + " (" + usual->source + ").",
                       indentation + 4);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/config/describe/parameter_text.hpp"
+#include "framework/config/state.hpp"
 
 namespace sprekk {
 namespace {
@@ -89,6 +90,8 @@ Json map_schema(const Spec& spec) {
   for (const Parameter& parameter : spec.parameters()) {
     Json schema = value_schema(parameter);
     schema["description"] = description(parameter);
+    if (const std::string formula = formula_text(spec.name(), parameter.name); !formula.empty())
+      schema["description"] = schema["description"].get<std::string>() + " " + formula;
     properties[parameter.name] = std::move(schema);
     const bool must_stand_here = parameter.about.required && !parameter.about.material;
     if (must_stand_here) required.push_back(parameter.name);

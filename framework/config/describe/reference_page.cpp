@@ -3,6 +3,7 @@
 
 #include "framework/config/describe/parameter_text.hpp"
 #include "framework/config/inner_path.hpp"
+#include "framework/config/state.hpp"
 #include "framework/config/usual_range.hpp"
 
 namespace sprekk {
@@ -26,6 +27,7 @@ std::string table(const Spec& spec, const std::string& path, int level) {
     std::string meant = meaning(parameter);
     if (const UsualRange* usual = usual_range(spec, parameter.name))
       meant += " As a rule it is " + usual_text(*usual, parameter.about.unit) + " (" + usual->source + ").";
+    if (const std::string formula = formula_text(spec.name(), parameter.name); !formula.empty()) meant += " " + formula;
     if (parameter.about.in_time) meant += " May change with time.";
     if (parameter.about.material) meant += " May stand in `materials`.";
     text += "|" + cell(code(path + parameter.name)) + "|" + cell(kind_text(parameter)) + "|" +

@@ -45,7 +45,7 @@ TEST(JunctionFluxes, AreThoseThroughAStarOfResistances) {
       weighted += conductances[i] * potentials[i];
     }
     const Junction junction = junction_of(4);
-    const std::vector<double> known = fluxes(JunctionFluxes(junction, halves), potentials);
+    const std::vector<double> known = fluxes(JunctionFluxes(junction, 4, halves), potentials);
     int place = 0;
     std::vector<double> out(4);
     for (int i = 0; i < 4; ++i)
@@ -61,7 +61,7 @@ TEST(JunctionFluxes, AreThoseThroughAStarOfResistances) {
 
 TEST(JunctionFluxes, AreNoneWhereNothingConducts) {
   const Junction junction = junction_of(3);
-  const JunctionFluxes at(junction, {{0, Vector::Unit(3, 0)}, {0, Vector::Unit(3, 1)}, {0, Vector::Unit(3, 2)}});
+  const JunctionFluxes at(junction, 3, {{0, Vector::Unit(3, 0)}, {0, Vector::Unit(3, 1)}, {0, Vector::Unit(3, 2)}});
   for (int place = 0; place < 3; ++place) {
     EXPECT_EQ(at.flux(place).conductance.value, 0);
     EXPECT_TRUE(at.flux(place).parts.empty());
@@ -89,7 +89,7 @@ TEST(JunctionFluxes, HaveTheDerivativesOfTheirFactors) {
       for (int k = 0; k < 4; ++k) mean += weights[k] * a[k];
       halves.push_back({(i + 1) * mean * mean * mean, 3 * (i + 1) * mean * mean * weights});
     }
-    return JunctionFluxes(junction, halves);
+    return JunctionFluxes(junction, 4, halves);
   };
   constexpr double step = 1e-5;
   for (int place = 0; place < 6; ++place) {

@@ -1,0 +1,42 @@
+#include "components/contact/laws/formulas.hpp"
+
+namespace sprekk::contact {
+
+const StateVariables& strength_variables() {
+  static const StateVariables variables = {
+      {"slip", "m", "size of the slip"},
+      {"path", "m", "path of slip and opening since the start, forth and back"},
+      {"slip_rate", "m/s", "slip of the step over its length"},
+      {"sigma_n", "Pa", "normal stress between the walls, positive where they press"}};
+  return variables;
+}
+
+const StateVariables& dilation_variables() {
+  static const StateVariables variables = {{"slip", "m", "size of the slip"}};
+  return variables;
+}
+
+const StateVariables& closure_variables() {
+  static const StateVariables variables = {
+      {"sigma_n", "Pa", "normal stress between the walls, positive where they press"}};
+  return variables;
+}
+
+Formulas::Formulas(const LawData& laws, const std::vector<Place>& places) {
+  if (StateFormula friction(laws.friction, strength_variables(), places); friction.is_formula())
+    friction_.emplace(std::move(friction));
+  if (!laws.cohesion.is_constant()) cohesion_.emplace(laws.cohesion, strength_variables(), places);
+  if (laws.dilation) dilation_.emplace(*laws.dilation, dilation_variables(), places);
+  if (laws.closure) closure_.emplace(*laws.closure, closure_variables(), places);
+}
+
+void Formulas::set_time(double t) {
+  for (std::optional<StateFormula>* formula : {&friction_, &cohesion_, &dilation_, &closure_})
+    if (*formula) (*formula)->set_time(t);
+}
+
+bool Formulas::strength_names(WallVariable variable) const {
+  return (friction_ && friction_->names(variable)) || (cohesion_ && cohesion_->names(variable));
+}
+
+}  // namespace sprekk::contact

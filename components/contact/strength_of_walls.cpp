@@ -1,0 +1,102 @@
+// What walls hold, how far slip opens them and pressure closes them: by numbers, built-in laws, or formulas.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "components/contact/frictional_contact.hpp"
+#include "components/contact/laws/closure.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/geometry.hpp"
+
+namespace sprekk::contact {
+
+void FrictionalContact::evaluate_formulas() {
+  const int count = mesh_.fracture_cell_count();
+  // It scales the search for the state of walls; the answer does not depend on it.
+  if (formulas_->friction()) friction_.set(Vector::Ones(count));
+  if (!formulas_->dilation()) return;
+  for (int i = 0; i < count; ++i) {
+    dilation_[i] = dilation_at(i, 0);
+    if (const double opening = dilated(i, 0); opening != 0 && is_on_fracture_cell(i))
+      throw DataError(InputError(origin_,
+                                 fmt::format("'dilation' is {:.6g} m without slip, at {}", opening,
+                                             to_text(mesh_.fracture_cells[i].center)),
+                                 "it is the opening that slip makes", "subtract its value at slip = 0")
+                          .what());
+  }
+}
+
+double FrictionalContact::closure(int i, double normal_traction) const {
+  if (const StateFormula* formula = formulas_->closure()) {
+    std::array<double, 1> by;
+    const double pressure = std::max(0.0, -normal_traction);
+    const double closure = formula->at(i, std::array{pressure}, by);
+    return normal_traction <= 0 ? closure : closure - by[0] * normal_traction;
+  }
+  return closure_ ? closure_->at(-normal_traction).closure : 0.0;
+}
+
+double FrictionalContact::closure_by_traction(int i, double normal_traction) const {
+  if (const StateFormula* formula = formulas_->closure()) {
+    std::array<double, 1> by;
+    formula->at(i, std::array{std::max(0.0, -normal_traction)}, by);
+    return -by[0];
+  }
+  return closure_ ? -closure_->at(-normal_traction).by_pressure : 0.0;
+}
+
+double FrictionalContact::dilated(int i, double slip) const {
+  if (const StateFormula* formula = formulas_->dilation()) return formula->at(i, std::array{slip}, {});
+  return std::min(slip, dilation_limit_.value_or(slip)) * dilation_[i];
+}
+
+double FrictionalContact::dilation_at(int i, double slip) const {
+  if (const StateFormula* formula = formulas_->dilation()) {
+    std::array<double, 1> by;
+    formula->at(i, std::array{slip}, by);
+    return by[0];
+  }
+  return dilation_limit_ && slip > *dilation_limit_ ? 0.0 : dilation_[i];
+}
+
+WallState FrictionalContact::wall_state(int i, double path, double pressure) const {
+  const TangentialVector u_t = tangential(jump_.now(), i), moved = u_t - tangential(jump_.accepted(), i);
+  return {magnitude<dimension - 1>(u_t), path, dt_ > 0 ? magnitude<dimension - 1>(moved) / dt_ : 0, pressure};
+}
+
+Strength FrictionalContact::strength(int i, const WallState& state) const {
+  const StateFormula *friction = formulas_->friction(), *cohesion = formulas_->cohesion();
+  if (!friction && !cohesion) return weakening_.at(friction_[i], dynamic_friction(i), state[path_of_walls]);
+  OfWalls f{friction_[i]}, c{weakening_.cohesion};
+  if (friction) f.value = friction->at(i, state, f.by);
+  SPREKK_ASSERT(f.value >= 0, i, f.value);
+  if (cohesion) c.value = cohesion->at(i, state, c.by);
+  Weakening weakening = weakening_;
+  weakening.cohesion = c.value;
+  Strength s = weakening.at(f.value, friction ? f.value : dynamic_friction(i), state[path_of_walls]);
+  const double left = c.value > 0 ? s.cohesion / c.value : 0;
+  s.friction_by_path += f.by[path_of_walls];
+  s.cohesion_by_path += left * c.by[path_of_walls];
+  s.friction_by_slip = f.by[slip_of_walls];
+  s.cohesion_by_slip = left * c.by[slip_of_walls];
+  s.friction_by_rate = f.by[slip_rate_of_walls];
+  s.cohesion_by_rate = left * c.by[slip_rate_of_walls];
+  s.friction_by_pressure = f.by[pressure_of_walls];
+  s.cohesion_by_pressure = left * c.by[pressure_of_walls];
+  return s;
+}
+
+Strength FrictionalContact::strength_before(int i, double normal_traction) const {
+  const double slip = magnitude<dimension - 1>(tangential(jump_.accepted(), i));
+  return strength(i, {slip, path_ ? path_->accepted()[i] : 0, 0, std::max(0.0, -normal_traction)});
+}
+
+double FrictionalContact::distance_of_loss(const Strength& strength, double normal_traction) const {
+  if (weakening_.is_on()) return weakening_.distance;
+  const double lost = lost_by_slip(strength, normal_traction, dt_);
+  return (strength.cohesion - strength.friction * normal_traction) / std::max(lost, std::numeric_limits<double>::min());
+}
+
+}  // namespace sprekk::contact

@@ -1,0 +1,75 @@
+// The state as formulas see it, and which parameters may be formulas of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "framework/config/data.hpp"
+
+namespace sprekk {
+
+/// A quantity of the state that formulas may name.
+struct StateVariable {
+  std::string name, unit;  ///< unit: SI, "" for a plain number
+  std::string doc;         ///< a few words
+};
+/// The variables of the formulas of one parameter, at most formula::most_derivatives.
+using StateVariables = std::vector<StateVariable>;
+
+/// The value of a datum where the state has these values, one for each variable. A datum that is a formula sets `by` to
+/// its derivatives by them, all others to zero; an empty `by` is left alone. Throws DataError as Data::at does.
+double value_at_state(const Data& data, const Place& place, const StateVariables& variables,
+                      std::span<const double> values, std::span<double> by = {});
+
+/// The variables that a datum names at this place, a bit for each; 0 where it is no formula of them.
+std::uint32_t variables_named(const Data& data, const Place& place, const StateVariables& variables);
+
+/// Declares that a datum may be a formula of these variables, which must outlive it: the parameter of a spec, by the
+/// names of both. Whoever reads it takes its values by value_at_state.
+void may_be_formula(const std::string& spec, const std::string& parameter, const StateVariables& variables);
+/// What formulas of the parameter may name; nullptr if it may be none.
+const StateVariables* formula_variables(const std::string& spec, const std::string& parameter);
+/// "A formula may name NAME (what it is, unit), …", or "" for a parameter that may be none.
+std::string formula_text(const std::string& spec, const std::string& parameter);
+
+/// While it lives, expressions are read as formulas of these variables; with nullptr, of place and time alone.
+class ReadsFormula {
+ public:
+  explicit ReadsFormula(const StateVariables* variables);
+  ~ReadsFormula();
+  ReadsFormula(const ReadsFormula&) = delete;
+  ReadsFormula& operator=(const ReadsFormula&) = delete;
+  /// The variables of the innermost one; none outside.
+  static const StateVariables& variables();
+
+ private:
+  const StateVariables* before_;
+};
+
+/// What formulas see while value_at_state goes on, in this thread.
+struct StateNow {
+  const StateVariables& variables;
+  std::span<const double> values;
+  std::span<double> by;
+  std::uint32_t* named;  ///< takes a bit for each variable that is named; may be null
+};
+/// The state that a formula has to take now; nullptr outside of value_at_state.
+const StateNow* state_now();
+
+/// While it lives, formulas add no derivatives.
+class WithoutDerivatives {
+ public:
+  WithoutDerivatives();
+  ~WithoutDerivatives();
+  WithoutDerivatives(const WithoutDerivatives&) = delete;
+  WithoutDerivatives& operator=(const WithoutDerivatives&) = delete;
+
+ private:
+  const StateNow* before_;
+  std::optional<StateNow> without_;
+};
+
+}  // namespace sprekk
