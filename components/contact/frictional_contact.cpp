@@ -55,8 +55,10 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
   formulas_->set_time(context.start_time);
   evaluate_formulas();
   stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
-  fracture_measure_.assign(mesh_.fractures.size(), 0);
-  for (const FractureCell& cell : mesh_.fracture_cells) fracture_measure_[cell.fracture] += cell.measure;
+  fracture_size_.assign(mesh_.fractures.size(), 0);
+  for (const FractureCell& cell : mesh_.fracture_cells) fracture_size_[cell.fracture] += cell.measure;
+  if constexpr (dimension > 2)
+    for (double& size : fracture_size_) size = std::sqrt(size);
 }
 
 FrictionalContact::~FrictionalContact() = default;
@@ -95,8 +97,7 @@ void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
   stiffness_of_fractures_ = stiffness_of_walls_;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
-    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *=
-        cell.measure / fracture_measure_[cell.fracture];
+    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *= cell.size() / fracture_size_[cell.fracture];
     constexpr double at_most = 0.5;  // times the tangential stiffness over mu_s tan psi
     const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
     for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_}) {

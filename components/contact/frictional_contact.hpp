@@ -142,7 +142,7 @@ class FrictionalContact : public Component,
   Field& jump() override { return jump_; }
   double opening_under(int cell, double normal_traction) const override;
   /// The tangential stiffness of a cell is replaced by that of its whole fracture: slip of all cells together meets a
-  /// stiffness that is smaller by the ratio of the length of the cell to that of the fracture. When a load decreases,
+  /// stiffness that is smaller by the ratio of the size of the cell to that of the fracture. When a load decreases,
   /// the derivatives of slip make all cells of a fracture slide back at once. With the stiffness of single cells the
   /// iteration would take these cells to slip back by friction, then forth again, where they only stick.
   ///
@@ -241,7 +241,7 @@ class FrictionalContact : public Component,
   double dt_ = 0;                            ///< s, of the step
   bool is_without_shortcuts_ = false;        ///< after Newton's method has failed
   bool follows_pieces_ = false;              ///< derivatives of the present piece, no guess of the next
-  std::vector<double> fracture_measure_;     ///< m
+  std::vector<double> fracture_size_;        ///< m, as FractureCell::size
   /// c, Pa/m, (normal, tangential) of each cell: with the tangential stiffness of the cell's walls, and with that of
   /// its whole fracture. Newton's method first uses the stiffness of the fracture, with which cells that unload
   /// together stick at once. After a failure it uses that of the walls: with the other one it may cycle between states

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "framework/invariants.hpp"
 
@@ -58,11 +59,10 @@ void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const J
   note_slips(notes, name, step);
   for (const Fracture& fracture : mesh.fractures) {
     constexpr double friction_shows = 1e-2;  // of what presses the walls together
-    double length = 0, jump = 0, sheared = 0, pressed = 0;
+    double measure = 0, jump = 0, sheared = 0, pressed = 0;
     bool all_open = true;
     for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
-      const double cell = mesh.fracture_cells[i].measure;
-      length += cell;
+      measure += mesh.fracture_cells[i].measure;
       jump = std::max(jump, step.jump.now().segment<dimension>(dimension * i).norm());
       all_open = all_open && step.is_open[i];
       const auto before = step.traction.accepted().segment<dimension>(dimension * i);
@@ -71,14 +71,15 @@ void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const J
         sheared = std::max(sheared, before.tail<dimension - 1>().norm());
       }
     }
+    const double length = dimension == 2 ? measure : std::sqrt(measure);
     if (jump > step.large_jump * length)
-      notes.add(
-          name + " large jump of " + fracture.name,
-          fmt::format("the walls of fracture '{}' are {:.3g} m apart from where they were, {:.2g} of its length of "
-                      "{:.3g} m (over {:.3g} is large: its place and its shape are taken to stay) look at loads, "
-                      "stiffness and what holds the rock",
-                      fracture.name, jump, jump / length, length, step.large_jump),
-          jump);
+      notes.add(name + " large jump of " + fracture.name,
+                fmt::format("the walls of fracture '{}' are {:.3g} m apart from where they were, {:.2g} of its {} of "
+                            "{:.3g} m (over {:.3g} is large: its place and its shape are taken to stay) look at loads, "
+                            "stiffness and what holds the rock",
+                            fracture.name, jump, jump / length,
+                            dimension == 2 ? "length" : "size, the root of its area,", length, step.large_jump),
+                jump);
     // No note where cells were open from the start, nor where friction has held nothing: a fracture that fluid opens is
     // meant to. Cells that have grown start closed.
     if (all_open && pressed > 0 && sheared > friction_shows * pressed)

@@ -157,7 +157,7 @@ void RateAndStateWalls::note_step(const std::string& name, const Vector& tractio
   for (int i = 0; i < mesh_.fracture_cell_count() && shear_modulus_.size() > 0; ++i) {
     if (b_[i] <= a_[i]) continue;
     const double pressure = std::max(0.0, -traction[dimension * i]);
-    const double parts = mesh_.fracture_cells[i].measure * b_[i] * pressure / (shear_modulus_[i] * distance_[i]);
+    const double parts = mesh_.fracture_cells[i].size() * b_[i] * pressure / (shear_modulus_[i] * distance_[i]);
     if (parts <= coarsest) continue;
     coarsest = parts;
     place = i;

@@ -16,16 +16,20 @@ namespace sprekk::contact {
 
 namespace {
 
-/// Neighbours on one fracture, all of which move.
-struct Nucleus {
-  int first, last;  ///< fracture cells
-};
-
-Nucleus nucleus_around(const Mesh& mesh, int cell, const std::vector<char>& moves) {
-  const Fracture& fracture = mesh.fractures[mesh.fracture_cells[cell].fracture];
-  Nucleus nucleus{cell, cell};
-  while (nucleus.first > fracture.first_cell && moves[nucleus.first - 1]) --nucleus.first;
-  while (nucleus.last + 1 < fracture.first_cell + fracture.cell_count && moves[nucleus.last + 1]) ++nucleus.last;
+/// The cells of one fracture that hang together with a cell and move, itself among them, ascending.
+std::vector<int> nucleus_around(const Mesh& mesh, int cell, const std::vector<char>& moves) {
+  std::vector<int> nucleus{cell};
+  std::vector<char> is_in(moves.size(), 0);
+  is_in[cell] = 1;
+  for (std::size_t next = 0; next < nucleus.size(); ++next)
+    for (const int ridge : mesh.fracture_cells[nucleus[next]].ridges)
+      for (const int other : mesh.ridges[ridge].cells)
+        if (moves[other] && !is_in[other] &&
+            mesh.fracture_cells[other].fracture == mesh.fracture_cells[cell].fracture) {
+          is_in[other] = 1;
+          nucleus.push_back(other);
+        }
+  std::ranges::sort(nucleus);
   return nucleus;
 }
 
@@ -102,23 +106,22 @@ std::string FrictionalContact::tell_loss(const LossOfStability& loss) const {
   }
   weakening /= weight;
   const int cell = loss.values[largest] / dimension;
-  const auto [first, last] = nucleus_around(mesh_, cell, moves);
-  double length = 0;
+  double size = 0;
   Point centre = Point::Zero();
-  for (int i = first; i <= last; ++i) {
-    length += mesh_.fracture_cells[i].measure;
+  for (const int i : nucleus_around(mesh_, cell, moves)) {
+    size += mesh_.fracture_cells[i].measure;
     centre += mesh_.fracture_cells[i].measure * mesh_.fracture_cells[i].center;
   }
-  centre /= length;
+  centre /= size;
   const char* motion = loss.values[largest] % dimension == 0 ? "opening" : "slip";
   return fmt::format(
-      "{0} runs away at {1:.6g} s: along {2:.4g} m of fracture '{3}' around {4} walls lose {5:.4g} Pa/m of {0}, and "
+      "{0} runs away at {1:.6g} s: along {2:.4g} {7} of fracture '{3}' around {4} walls lose {5:.4g} Pa/m of {0}, and "
       "the "
       "rock takes {6:.4g} Pa/m off them (dynamic {0}: inertia alone limits it, and there is none here) end the run "
       "before, "
       "or take 'rate_and_state' with 'radiation_damping', which follows fast slip",
-      motion, loss.time, length, mesh_.fractures[mesh_.fracture_cells[cell].fracture].name, to_text(centre), weakening,
-      weakening + loss.stiffness);
+      motion, loss.time, size, mesh_.fractures[mesh_.fracture_cells[cell].fracture].name, to_text(centre), weakening,
+      weakening + loss.stiffness, dimension == 2 ? "m" : "m^2");
 }
 
 void FrictionalContact::note_passed(const std::string& told, Notes& notes) {

@@ -84,7 +84,7 @@ void FrictionalContact::deactivate_conditions() {
     if (is_bonded(i) || !is_on_fracture_cell(i)) continue;
     traction.segment<dimension>(dimension * i).setZero();
     const double least = dilated(i, magnitude<dimension - 1>(tangential(jump, i))) - closure(i, 0);
-    jump[dimension * i] = std::max(jump[dimension * i], least + opening * mesh_.fracture_cells[i].measure);
+    jump[dimension * i] = std::max(jump[dimension * i], least + opening * mesh_.fracture_cells[i].size());
   }
   traction_.set(std::move(traction));
   jump_.set(std::move(jump));

@@ -81,17 +81,7 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
              "' has no effect (that of an isotropic rock follows from young_modulus and poisson_ratio) remove it");
 }
 
-void LoadedRock::note_input(Notes& notes) const {
-  note_conditions(notes, options_, mesh_, name(), origin_);
-  const auto rim = std::ranges::find(mesh_.ridges, Ridge::Kind::tip, &Ridge::kind);
-  if (dimension == 2 || rim == mesh_.ridges.end()) return;
-  notes.add(
-      name() + ": rims without their singular field",
-      fmt::format("'{}' has no singular field around the rims of fractures, as at {}: openings come out too small, "
-                  "by some 13 and 8 % with 6 and 12 cells on the radius of a disc with 'order: first', by 2 % with "
-                  "4 with 'order: second'; use a smaller mesh.fracture_size",
-                  name(), to_text(rim->center)));
-}
+void LoadedRock::note_input(Notes& notes) const { note_conditions(notes, options_, mesh_, name(), origin_); }
 
 void LoadedRock::note_start(Notes& notes) const {
   note_start_imbalance(notes, options_, mesh_, name(), evaluated_for_.start);

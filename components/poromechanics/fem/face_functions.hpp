@@ -24,12 +24,12 @@ struct FacePoint {
   Point x;                    ///< m
   double weight;              ///< m (m^2 in space)
   Point normal;               ///< unit, out of face_cells[f][0], at this point
-  std::vector<double> value;  ///< of each of face_functions, where middle nodes are in the middle
+  std::vector<double> value;  ///< of each of face_functions; in a plane where middle nodes are in the middle
 };
 std::vector<FacePoint> face_points(const RawDisplacement& raw, int face);
 
 /// Where the function of a face is 1, m.
-Point middle_of_face(const Mesh& mesh, int face);
+Point middle_of_face(const RawDisplacement& raw, int face);
 
 /// The edges of a face, from each of its nodes to the next; empty where there are no functions of edges.
 std::vector<int> edges_of_face(const RawDisplacement& raw, int face);

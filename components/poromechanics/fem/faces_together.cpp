@@ -73,7 +73,8 @@ FacesTogether::FacesTogether(const RawDisplacement& raw, std::vector<int> groups
 void FacesTogether::add(int cell, const Eigen::MatrixXd& of_unknowns) {
   const CellFaces& faces = raw_.mesh.cell_faces[cell];
   const int count = faces.size(), size = dimension * count;
-  const bool can_bend = raw_.mesh.cell_nodes[cell].size() > dimension + 1;  // strains vary where faces have no forces
+  // Strains vary where faces have no forces: in cells that are no simplices, or have functions of edges.
+  const bool can_bend = raw_.mesh.cell_nodes[cell].size() > dimension + 1 || (raw_.edges && raw_.edges->are_in(cell));
   const Eigen::MatrixXd together = of_unknowns.bottomRightCorner(size, size);
   Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(size, size);
   bool is_one_set = true;

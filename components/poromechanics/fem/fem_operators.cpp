@@ -31,8 +31,9 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
                       .of_interior = {}};
   std::vector<Triplet> entries;
   for (int c = 0; c < mesh.cell_count(); ++c) {
-    const bool is_second = order == ElementOrder::second || is_at_tip(mesh, tips, c);
-    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c, tips, raw.edge_count() > 0), stiffness[c],
+    const bool is_second =
+        order == ElementOrder::second || is_at_tip(mesh, tips, c) || (raw.edges && raw.edges->are_in(c));
+    CellStiffness of_cell = cell_stiffness(cell_points(mesh, c, tips, raw.edges), stiffness[c],
                                            is_second ? ElementOrder::second : ElementOrder::first);
     const std::vector<int> first = raw.of_cell(c);
     const int count = static_cast<int>(first.size()), faces = mesh.cell_faces[c].size();
@@ -53,7 +54,7 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
 /// All coefficients as functions of the unknowns where no force is left on functions of faces: at first order they are
 /// those of displacements that are linear along every face.
 SparseMatrix linear_functions(const RawDisplacement& raw, const std::vector<int>& tips, ElementOrder order) {
-  const int unknowns = order == ElementOrder::second ? raw.size() : raw.nodes_size();
+  const int unknowns = order == ElementOrder::second ? raw.size() : raw.of_face(0);
   std::vector<Triplet> entries;
   for (int i = 0; i < unknowns; ++i) entries.emplace_back(i, i, 1.0);
   for (int f = 0; order == ElementOrder::first && f < raw.mesh.face_count(); ++f) {

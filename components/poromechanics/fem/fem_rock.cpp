@@ -31,7 +31,7 @@ std::vector<char> owned_values(const Mesh& mesh, Location location, int entities
 FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
     : LoadedRock(context, options, Location::node),
       order_(options.order == "first" ? ElementOrder::first : ElementOrder::second) {
-  if (order_ == ElementOrder::second) edges_ = find_edges(mesh_);
+  edges_ = find_edges(mesh_, order_ == ElementOrder::second ? EdgesWithFunctions::all : EdgesWithFunctions::at_rims);
   held_ = held_directions(options_, mesh_, edges_);
   if (edges_.count() > 0)
     of_edges_ = &context.fields.add(mesh_, {.owner = context.name,

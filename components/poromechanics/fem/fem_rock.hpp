@@ -65,8 +65,8 @@ class FemRock : public LoadedRock, public NeedsDirectSolver {
   std::vector<Quantity*> quantities();
 
   ElementOrder order_;
-  CellEdges edges_;              ///< at second order in space
-  Field* of_edges_ = nullptr;    ///< the same
+  CellEdges edges_;              ///< in space: those with functions
+  Field* of_edges_ = nullptr;    ///< where there are some
   Field* of_faces_ = nullptr;    ///< at second order
   Field* volumetric_ = nullptr;  ///< at first order, in nearly incompressible rock: see VolumetricSplit
   Held held_;

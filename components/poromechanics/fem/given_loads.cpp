@@ -29,7 +29,7 @@ void add_forces_in_cells(const Options& options, const RawDisplacement& raw, con
     const int functions = static_cast<int>(first.size());
     const double support = excavation.support(c);
     Eigen::VectorXd forces = Eigen::VectorXd::Zero(dimension * (functions + 1));
-    for (const CellPoint& point : cell_points(mesh, c, operators.tips, raw.edge_count() > 0)) {
+    for (const CellPoint& point : cell_points(mesh, c, operators.tips, raw.edges)) {
       const Place place{point.x, mesh.cell_region[c], 0};
       const Point weight = support * options.body_force_in(step, place);
       if (!weight.isZero(0)) loads.largest_stress = std::numeric_limits<double>::infinity();
@@ -106,7 +106,7 @@ GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const
   // How much more the middle of an edge is displaced than the mean of its ends.
   const auto of_edge = [&](const HeldBy& by, int edge) {
     const auto& [from, to] = raw.edges->nodes[edge];
-    const Point middle = (mesh.nodes[from] + mesh.nodes[to]) / 2;
+    const Point middle = (mesh.nodes[from] + mesh.nodes[to]) / 2 + raw.edges->shift(mesh, edge);
     const bool is_on_wall = has_wall(mesh, from) && has_wall(mesh, to);
     return (is_on_wall ? beside_wall(by, middle) : displacement(by, middle)) -
            (at_node(by, from) + at_node(by, to)) / 2;
@@ -119,7 +119,7 @@ GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const
         for (const int node : mesh.face_nodes[f]) of_nodes += at_node(by, node);
         double before = of_nodes / static_cast<double>(mesh.face_nodes[f].size());
         for (const int edge : edges_of_face(raw, f)) before += edge_in_middle(mesh, f) * of_edge(by, edge);
-        loads.displacements[raw.of_face(f) + k] += displacement(by, middle_of_face(mesh, f)) - before;
+        loads.displacements[raw.of_face(f) + k] += displacement(by, middle_of_face(raw, f)) - before;
       }
   }
   for (int node = 0; node < mesh.node_count(); ++node)
@@ -139,7 +139,7 @@ Vector settled_forces(const Options& options, const RawDisplacement& raw, const 
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const std::vector<int> first = raw.of_cell(c);
     const int functions = static_cast<int>(first.size());
-    const std::vector<CellPoint> points = cell_points(mesh, c, operators.tips, raw.edge_count() > 0);
+    const std::vector<CellPoint> points = cell_points(mesh, c, operators.tips, raw.edges);
     Eigen::VectorXd displacement(dimension * functions);
     for (int i = 0; i < functions; ++i)
       displacement.segment<dimension>(dimension * i) = coefficients.segment<dimension>(first[i]);

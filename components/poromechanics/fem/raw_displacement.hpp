@@ -11,7 +11,7 @@ namespace sprekk::poromechanics {
 /// and once in each sector of a junction; at a tip the sides have one node.
 struct RawDisplacement {
   const Mesh& mesh;
-  const CellEdges* edges = nullptr;  ///< at second order in space
+  const CellEdges* edges = nullptr;  ///< in space
   int edge_count() const { return edges ? edges->count() : 0; }
   int entities() const { return mesh.node_count() + edge_count() + mesh.face_count(); }
   int size() const { return dimension * entities(); }
@@ -24,7 +24,8 @@ struct RawDisplacement {
     std::vector<int> first;
     for (const int node : mesh.cell_nodes[cell]) first.push_back(of_node(node));
     if (edge_count() > 0)
-      for (const int edge : edges->of_cell[cell]) first.push_back(of_edge(edge));
+      for (const int edge : edges->of_cell[cell])
+        if (edge != none) first.push_back(of_edge(edge));
     for (const int face : mesh.cell_faces[cell]) first.push_back(of_face(face));
     return first;
   }

@@ -26,8 +26,9 @@ struct ReferencePoint {
   std::vector<ReferenceFunction> functions;
 };
 
-/// The points of the reference cell with so many corners. `start`: in a plane, the corner of a triangle from which the
-/// points lie along rays. `has_edges`: whether there are functions of edges.
+/// The points of the reference cell with so many corners. `start`: the corner of a triangle, or of that of a wedge,
+/// from which the points lie along rays; of a tetrahedron, one bit for each corner from which, together, they do.
+/// `has_edges`: whether there are functions of edges.
 const std::vector<ReferencePoint>& reference_points(int corners, int start, bool has_edges);
 
 }  // namespace sprekk::poromechanics

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "components/poromechanics/fem/cell_edges.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::poromechanics {
@@ -29,9 +30,8 @@ struct CellPoint {
 
 /// The points of a cell: integrals of products of gradients are exact where the sides of the cell are parallel, or it
 /// is a triangle or a tetrahedron. `tips`: see
-/// tips_of_faces; empty where the middle nodes of all faces are in the middle. `has_edges`: in space, with functions of
-/// edges.
+/// tips_of_faces; empty where the middle nodes of all faces are in the middle. `edges`: in space, those with functions.
 std::vector<CellPoint> cell_points(const Mesh& mesh, int cell, const std::vector<int>& tips = {},
-                                   bool has_edges = false);
+                                   const CellEdges* edges = nullptr);
 
 }  // namespace sprekk::poromechanics

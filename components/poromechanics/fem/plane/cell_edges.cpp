@@ -2,7 +2,7 @@
 
 namespace sprekk::poromechanics {
 
-CellEdges find_edges(const Mesh& /*mesh*/) { return {}; }
+CellEdges find_edges(const Mesh& /*mesh*/, EdgesWithFunctions /*which*/) { return {}; }
 
 std::span<const std::array<int, 2>> edges_of_shape(int /*corners*/) { return {}; }
 

@@ -44,7 +44,7 @@ std::vector<FacePoint> face_points(const RawDisplacement& raw, int face) {
   return points;
 }
 
-Point middle_of_face(const Mesh& mesh, int face) { return mesh.face_center[face]; }
+Point middle_of_face(const RawDisplacement& raw, int face) { return raw.mesh.face_center[face]; }
 
 std::vector<int> edges_of_face(const RawDisplacement& /*raw*/, int /*face*/) { return {}; }
 

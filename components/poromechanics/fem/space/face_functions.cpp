@@ -2,42 +2,69 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 #include "components/poromechanics/fem/gauss_points.hpp"
+#include "components/poromechanics/fem/reference_cell.hpp"
 
 namespace sprekk::poromechanics {
 
+namespace {
+
+/// The edge from each node of a face to the next, or none where it has no function.
+ShortList<4> edges_of_sides(const RawDisplacement& raw, int face) {
+  const FaceNodes& nodes = raw.mesh.face_nodes[face];
+  ShortList<4> sides;
+  for (int k = 0; k < nodes.size(); ++k) {
+    const std::array<int, 2> ends{std::min(nodes[k], nodes.after(k)), std::max(nodes[k], nodes.after(k))};
+    int found = none;
+    if (raw.edge_count() > 0)
+      for (const int edge : raw.edges->of_cell[raw.mesh.face_cells[face][0]])
+        if (edge != none && raw.edges->nodes[edge] == ends) found = edge;
+    sides.push_back(found);
+  }
+  return sides;
+}
+
+/// The functions of the nodes, of all sides and of the face, at x and y in the reference triangle or square.
+std::vector<ReferenceFunction> functions_at(double x, double y, int corners) {
+  const ReferenceFunction in_x[2] = {{1 - x, {-1, 0, 0}}, {x, {1, 0, 0}}},
+                          in_y[2] = {{1 - y, {0, -1, 0}}, {y, {0, 1, 0}}};
+  if (corners == 3) {
+    const ReferenceFunction a{1 - x - y, {-1, -1, 0}}, &b = in_x[1], &c = in_y[1];
+    return {a, b, c, 4 * (a * b), 4 * (b * c), 4 * (c * a), 27 * (a * b * c)};
+  }
+  const ReferenceFunction along_x = 4 * (in_x[0] * in_x[1]), along_y = 4 * (in_y[0] * in_y[1]);
+  return {in_x[0] * in_y[0], in_x[1] * in_y[0], in_x[1] * in_y[1], in_x[0] * in_y[1], along_x * in_y[0],
+          in_x[1] * along_y, along_x * in_y[1], in_x[0] * along_y, along_x * along_y};
+}
+
+}  // namespace
+
 std::vector<FacePoint> face_points(const RawDisplacement& raw, int face) {
   const Mesh& mesh = raw.mesh;
-  const bool has_edges = raw.edge_count() > 0;
   const FaceNodes& nodes = mesh.face_nodes[face];
-  const Point& origin = mesh.nodes[nodes[0]];
+  const int corners = nodes.size();
+  const ShortList<4> sides = edges_of_sides(raw, face);
+  std::vector<Point> arms;  // of nodes from the first, and of middle nodes from the middles of sides
+  for (const int node : nodes) arms.push_back(mesh.nodes[node] - mesh.nodes[nodes[0]]);
+  for (const int edge : sides) arms.push_back(edge == none ? Point(Point::Zero()) : raw.edges->shift(mesh, edge));
   std::vector<FacePoint> points;
-  for (const GaussPoint& first : gauss_points())
-    for (const GaussPoint& second : gauss_points()) {
-      FacePoint point{origin, first.weight * second.weight, Point::Zero(), {}};
-      const double x = first.at, y = nodes.size() == 3 ? (1 - x) * second.at : second.at;
-      Point along_x, along_y;
-      if (nodes.size() == 3) {
-        point.value = {1 - x - y, x, y};
-        if (has_edges)
-          for (int k = 0; k < 3; ++k) point.value.push_back(4 * point.value[k] * point.value[(k + 1) % 3]);
-        point.value.push_back(27 * (1 - x - y) * x * y);
-        along_x = mesh.nodes[nodes[1]] - origin;
-        along_y = mesh.nodes[nodes[2]] - origin;
-        point.weight *= 1 - x;
-      } else {
-        const double in_x = 4 * x * (1 - x), in_y = 4 * y * (1 - y);
-        point.value = {(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y};
-        if (has_edges) point.value.insert(point.value.end(), {in_x * (1 - y), x * in_y, in_x * y, (1 - x) * in_y});
-        point.value.push_back(in_x * in_y);
-        const auto side = [&](int from, int to) { return Point(mesh.nodes[nodes[to]] - mesh.nodes[nodes[from]]); };
-        along_x = (1 - y) * side(0, 1) + y * side(3, 2);
-        along_y = (1 - x) * side(0, 3) + x * side(1, 2);
+  for (const GaussPoint& first : four_gauss_points())
+    for (const GaussPoint& second : four_gauss_points()) {
+      FacePoint point{mesh.nodes[nodes[0]], first.weight * second.weight, Point::Zero(), {}};
+      const double shrink = corners == 3 ? 1 - first.at : 1;
+      const std::vector<ReferenceFunction> functions = functions_at(first.at, shrink * second.at, corners);
+      Point along_x = Point::Zero(), along_y = Point::Zero();
+      for (std::size_t k = 0; k < arms.size(); ++k) {
+        point.x += functions[k].value * arms[k];
+        along_x += functions[k].slope.x() * arms[k];
+        along_y += functions[k].slope.y() * arms[k];
       }
-      for (int k = 1; k < nodes.size(); ++k) point.x += point.value[k] * (mesh.nodes[nodes[k]] - origin);
+      for (int k = 0; k < static_cast<int>(functions.size()); ++k)
+        if (k < corners || k == 2 * corners || sides[k - corners] != none) point.value.push_back(functions[k].value);
       const Point area = along_x.cross(along_y);
-      point.weight *= area.norm();
+      point.weight *= shrink * area.norm();
       point.normal = area.normalized();
       points.push_back(std::move(point));
     }
@@ -61,21 +88,19 @@ std::vector<FaceFunction> face_functions(const RawDisplacement& raw, const std::
   return functions;
 }
 
-Point middle_of_face(const Mesh& mesh, int face) {
-  Point sum = Point::Zero();
-  for (const int node : mesh.face_nodes[face]) sum += mesh.nodes[node];
-  return sum / mesh.face_nodes[face].size();
+Point middle_of_face(const RawDisplacement& raw, int face) {
+  Point middle = Point::Zero();
+  for (const int node : raw.mesh.face_nodes[face]) middle += raw.mesh.nodes[node];
+  middle /= raw.mesh.face_nodes[face].size();
+  for (const int edge : edges_of_face(raw, face))
+    middle += edge_in_middle(raw.mesh, face) * raw.edges->shift(raw.mesh, edge);
+  return middle;
 }
 
 std::vector<int> edges_of_face(const RawDisplacement& raw, int face) {
   std::vector<int> edges;
-  if (raw.edge_count() == 0) return edges;
-  const FaceNodes& nodes = raw.mesh.face_nodes[face];
-  for (int k = 0; k < nodes.size(); ++k)
-    for (const int edge : raw.edges->of_cell[raw.mesh.face_cells[face][0]])
-      if (const auto [one, other] = raw.edges->nodes[edge];
-          one == std::min(nodes[k], nodes.after(k)) && other == std::max(nodes[k], nodes.after(k)))
-        edges.push_back(edge);
+  for (const int edge : edges_of_sides(raw, face))
+    if (edge != none) edges.push_back(edge);
   return edges;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <utility>
 
 #include "components/poromechanics/fem/cell_edges.hpp"
 #include "components/poromechanics/fem/gauss_points.hpp"
@@ -108,16 +110,57 @@ std::vector<ReferencePoint> tetrahedron_points(bool has_edges) {
   return points;
 }
 
+/// Along rays from one or two corners (bits), or from one to the other three.
+std::vector<ReferencePoint> tetrahedron_points_along_rays(unsigned from) {
+  std::vector<int> near, far;
+  for (int k = 0; k < 4; ++k) ((from >> k) & 1 ? near : far).push_back(k);
+  if (near.size() > far.size()) std::swap(near, far);
+  std::vector<ReferencePoint> points;
+  for (const GaussPoint& along : four_gauss_points())
+    for (const GaussPoint& first : four_gauss_points())
+      for (const GaussPoint& second : four_gauss_points()) {
+        std::array<double, 4> share{};
+        double weight = along.weight * first.weight * second.weight;
+        if (near.size() == 2) {
+          share[near[0]] = (1 - along.at) * first.at;
+          share[near[1]] = (1 - along.at) * (1 - first.at);
+          share[far[0]] = along.at * second.at;
+          share[far[1]] = along.at * (1 - second.at);
+          weight *= along.at * (1 - along.at);
+        } else {
+          share[near[0]] = 1 - along.at;
+          share[far[0]] = along.at * first.at;
+          share[far[1]] = along.at * (1 - first.at) * second.at;
+          share[far[2]] = along.at * (1 - first.at) * (1 - second.at);
+          weight *= along.at * along.at * (1 - first.at);
+        }
+        points.push_back({weight, tetrahedron_functions({share[1], share[2], share[3]}, true)});
+      }
+  return points;
+}
+
+/// For each choice of corners.
+std::vector<std::vector<ReferencePoint>> tetrahedra_with_edges() {
+  std::vector<std::vector<ReferencePoint>> points;
+  for (unsigned from = 0; from < 1 << 4; ++from)
+    points.push_back(std::popcount(from) % 4 == 0 ? tetrahedron_points(true) : tetrahedron_points_along_rays(from));
+  return points;
+}
+
 /// Exact for polynomials of the sixth degree along the triangle, and of the fifth across it.
-std::vector<ReferencePoint> wedge_points(bool has_edges) {
+std::vector<ReferencePoint> wedge_points(int start, bool has_edges) {
   std::vector<ReferencePoint> points;
   for (const GaussPoint& first : four_gauss_points())
     for (const GaussPoint& second : four_gauss_points())
       for (const GaussPoint& across : gauss_points()) {
         // A triangle is a square of which one side has no length.
         const double shrink = 1 - first.at;
+        std::array<double, 3> share{};
+        share[start] = first.at;
+        share[(start + 1) % 3] = shrink * second.at;
+        share[(start + 2) % 3] = shrink * (1 - second.at);
         points.push_back({first.weight * second.weight * across.weight * shrink,
-                          wedge_functions(first.at, shrink * second.at, across.at, has_edges)});
+                          wedge_functions(share[1], share[2], across.at, has_edges)});
       }
   return points;
 }
@@ -133,12 +176,20 @@ std::vector<ReferencePoint> cube_points(bool has_edges) {
 
 }  // namespace
 
-const std::vector<ReferencePoint>& reference_points(int corners, int /*start*/, bool has_edges) {
+const std::vector<ReferencePoint>& reference_points(int corners, int start, bool has_edges) {
   SPREKK_EXPECT(shape_with(corners) != nullptr, corners);
-  using Points = std::array<std::vector<ReferencePoint>, 2>;  // without and with edges
-  static const Points tetrahedron{tetrahedron_points(false), tetrahedron_points(true)};
-  static const Points wedge{wedge_points(false), wedge_points(true)}, cube{cube_points(false), cube_points(true)};
-  return (corners == 4 ? tetrahedron : corners == 6 ? wedge : cube)[has_edges ? 1 : 0];
+  if (corners == 4) {
+    static const std::vector<ReferencePoint> without = tetrahedron_points(false);
+    static const std::vector<std::vector<ReferencePoint>> with = tetrahedra_with_edges();
+    return has_edges ? with[start] : without;
+  }
+  if (corners == 6) {
+    static const std::vector<ReferencePoint> without = wedge_points(1, false);
+    static const std::array with{wedge_points(0, true), wedge_points(1, true), wedge_points(2, true)};
+    return has_edges ? with[start] : without;
+  }
+  static const std::array cube{cube_points(false), cube_points(true)};  // without and with edges
+  return cube[has_edges ? 1 : 0];
 }
 
 }  // namespace sprekk::poromechanics
