@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
@@ -23,7 +24,7 @@ class AutomaticSolver final : public LinearSolver {
 
   LinearReport factor(const LinearSystem& system) override {
     LinearSolver& solver = chosen_for(system);
-    if (solver.name() != "belos" || system.local.cols() > most_for_direct_instead * options_.largest_for_direct) {
+    if (solver.name() != "belos" || !can_be_direct(system)) {
       forget_system();
       return solver.factor(system);
     }
@@ -55,7 +56,12 @@ class AutomaticSolver final : public LinearSolver {
   }
 
  private:
-  static constexpr int most_for_direct_instead = 5;  // times largest_for_direct
+  static constexpr int most_for_direct_instead = 5;      // times largest_for_direct
+  static constexpr int most_iterations_before_it = 100;  // these take a part of the time of a factorization
+
+  bool can_be_direct(const LinearSystem& system) const {
+    return system.local.cols() <= most_for_direct_instead * options_.largest_for_direct;
+  }
 
   /// The report of GMRES; where it has failed, that of a factorization of the same system, which is used from now on.
   LinearReport or_directly(const LinearReport& report) {
@@ -79,15 +85,19 @@ class AutomaticSolver final : public LinearSolver {
     const auto unknowns = system.local.cols();
     const bool is_for_mumps = parallel::size() > 1 || options_.bulk_changes_often || unknowns >= smallest_for_mumps;
     const char* const type = unknowns > options_.largest_for_direct ? "belos" : is_for_mumps ? "mumps" : "umfpack";
-    if (!chosen_ || chosen_->name() != type) {
-      options_.type = type;
-      chosen_ = make_linear_solver(options_);
+    LinearOptions options = options_;
+    options.type = type;
+    if (can_be_direct(system)) options.max_iterations = std::min(options.max_iterations, most_iterations_before_it);
+    if (!chosen_ || chosen_->name() != type || options.max_iterations != most_iterations_) {
+      most_iterations_ = options.max_iterations;
+      chosen_ = make_linear_solver(options);
     }
     return *chosen_;
   }
 
   LinearOptions options_;
   std::unique_ptr<LinearSolver> chosen_;
+  int most_iterations_ = 0;
   // The last system that GMRES was to solve, and what solves it directly instead. GMRES tries each new system first.
   LastSystem last_;
   std::optional<LinearSystem> system_;
