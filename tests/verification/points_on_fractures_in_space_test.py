@@ -112,6 +112,17 @@ class PointsOnFractures(SpaceRuns):
         for column in [*(f"conduit.{name}.rate[m^3/s]" for name in points), *FLOWS]:
             self.assertAlmostEqual(found.history[column][-1], direct.history[column][-1], delta=1e-6 * abs(direct["conduit.one.rate"][-1]))
 
+    def test_pressures_stay_between_those_given(self):
+        """A pressure at a point between the centres of cells of a fracture that conducts less than its walls."""
+        for u, v in ((0.4, 0.5), (0.43, 0.47)):
+            given = f"{{p: {{fracture: one, at: [{', '.join(f'{float(c)!r} m' for c in on_cut(u, v))}], pressure: -9 Pa}}}}"
+            text = scene_with_rock("{size: 0.25 m}", {"one": CUTS["one"]}, walls="1 m/(Pa*s)")
+            text = text.replace("value: 1 m^3", "value: 1e-3 m^3").replace("    initial_aperture:", f"    prescribed: {given}\n    initial_aperture:", 1)
+            pressures = self.run_text(text).fractures()["conduit.pressure"]
+            self.assertLess(pressures.max(), 2.45)  # the sides have -1.4 to 2.45 Pa
+            self.assertGreaterEqual(pressures.min(), -9)
+            self.assertAlmostEqual(pressures.min(), -9, delta=1e-9)
+
     def test_what_is_told(self):
         for place, radius, size, words, code in (((0.5, 0.5), 0.5, 0.1, "too small for the bore hole", 2), ((0.999, 0.5), 1e-3, 0.1, "at the rim", 2),
                                                  ((0.5, 0.5), None, 0.1, "give the 'radius' of its bore hole", 0), ((0.5, 0.5), 1e-3, 0.1, "", 0)):

@@ -80,7 +80,8 @@ def mass(p, instants, history, places):
     from_rock, from_fractures = (list(outflows(history, component).values()) for component in ("pore", "conduit"))
     brought, into_fractures, without_sign = rates(p)
     before = (potential_of_start(p, places.rock), potential_of_start(p, places.fractures))
-    for row, instant in enumerate(instants):
+    for instant in instants:
+        row = int(np.argmin(np.abs(history["time[s]"] - instant.time)))
         rock, fluid = instant.cell("pore.pressure[Pa]"), instant.on_fractures("conduit.pressure", "Pa")
         if instant.follows:
             step = history["step[s]"][row]

@@ -282,7 +282,7 @@ class FractureFlow : public Component,
   Rise rise_of(const OpenPoint& point) const;
   /// OpenPoint::bore. Throws InputError where the cells are too small, or at the rim of their fracture.
   double bore_at(const FracturePlace& where, int cell);
-  void share(OpenPoint& point) const;
+  void share(OpenPoint& point, bool is_given_pressure) const;
   void share_points();
   double pressure_at(const OpenPoint& point, double rate) const;  ///< Pa
   void check_points_apart() const;

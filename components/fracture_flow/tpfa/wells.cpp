@@ -153,9 +153,9 @@ void FractureFlow::prescribe(const StepTime& step) {
 
 /// Finds the shares of points in this step, and what enters each cell.
 void FractureFlow::share_points() {
-  for (OpenPoint& point : prescribed_points_) share(point);
+  for (OpenPoint& point : prescribed_points_) share(point, true);
   for (OpenPoint& point : injected_points_) {
-    share(point);
+    share(point, false);
     FluidSource& source = *std::ranges::find(sources_, point.name, &FluidSource::name);
     source.rates.clear();
     for (const auto& [cell, share] : point.shares) source.rates.emplace_back(cell, point.value * share);
@@ -168,8 +168,11 @@ void FractureFlow::share_points() {
   }
 }
 
-void FractureFlow::share(OpenPoint& point) const {
-  point.shares = shares_at(point.cell, point.at);
+void FractureFlow::share(OpenPoint& point, bool is_given_pressure) const {
+  // In space a pressure without a bore hole is that of its cell: a mean of cells that the walls hold apart could be
+  // kept only by one that is beyond it.
+  const bool is_of_cell = dimension == 3 && is_given_pressure && point.bore == 0;
+  point.shares = is_of_cell ? decltype(point.shares){{point.cell, 1.0}} : shares_at(point.cell, point.at);
   point.level = 0;
   const Point place = point_at(point.cell, point.at);
   for (const auto& [cell, share] : point.shares)

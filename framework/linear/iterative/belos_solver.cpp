@@ -144,7 +144,6 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
 
   Vector r = b, y = x;
   constexpr double safely = 0.5;  // of the tolerance, since GMRES tests another norm than the loop below
-  constexpr int most_restarts = 6;
   double r_norm = b_norm, wanted_norm = safely * tolerance_ * b_norm;
   BlockResidual measured;
   constexpr double rounding = 1e-14, useless = 1e-3;
@@ -154,7 +153,7 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   };
   // GMRES tests a residual from a recurrence, in one norm. This loop tests the true residual of every block, and
   // restarts GMRES from it.
-  for (int restart = 0; restart < most_restarts && report.iterations < max_iterations_; ++restart) {
+  for (int restart = 0; report.iterations < max_iterations_; ++restart) {
     constexpr double deepest = 1e-12, shallowest = 0.1;  // of one restart
     Gmres::Result step;
     const bool some_are_left = r_norm <= tolerance_ * b_norm;

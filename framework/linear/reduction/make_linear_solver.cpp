@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
 #include "framework/linear/direct/mumps_solver.hpp"
 #include "framework/linear/direct/umfpack_solver.hpp"
 #include "framework/linear/iterative/belos_solver.hpp"
+#include "framework/linear/last_system.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/linear/reduction/condensed_solver.hpp"
 #include "framework/linear/reduction/separated_solver.hpp"
@@ -15,27 +17,67 @@ namespace {
 
 /// Chooses a solver for the first system, and again when the number of unknowns crosses a limit. A direct solver is
 /// accurate to rounding error, and in two dimensions faster up to some hundred thousand unknowns; above, its memory is
-/// the limit.
+/// the limit. A system for which GMRES does not converge is solved directly, if it is not far beyond this limit.
 class AutomaticSolver final : public LinearSolver {
  public:
   explicit AutomaticSolver(const LinearOptions& options) : options_(options) {}
 
-  LinearReport factor(const LinearSystem& system) override { return chosen_for(system).factor(system); }
+  LinearReport factor(const LinearSystem& system) override {
+    LinearSolver& solver = chosen_for(system);
+    if (solver.name() != "belos" || !can_be_direct(system)) {
+      forget_system();
+      return solver.factor(system);
+    }
+    if (last_.compare_and_remember(system) != Change::nothing) {
+      system_ = system;
+      is_solved_directly_ = false;
+    }
+    return is_solved_directly_ ? instead_->factor(*system_) : or_directly(solver.factor(system));
+  }
   std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
                                               const SparseMatrix& rows, Eigen::MatrixXd& schur) override {
     return chosen_for(system).factor_bordered(system, columns, rows, schur);
   }
   LinearReport solve(const Vector& b_rows, Vector& x) override {
     if (!chosen_) return LinearReport::failure("solve was called before factor");
-    return chosen_->solve(b_rows, x);
+    if (is_solved_directly_) return instead_->solve(b_rows, x);
+    const LinearReport report = chosen_->solve(b_rows, x);
+    or_directly(report);
+    return is_solved_directly_ ? instead_->solve(b_rows, x) : report;
   }
   bool solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) override {
     return chosen_ && chosen_->solve_columns(columns);
   }
   std::string name() const override { return chosen_ ? chosen_->name() : "auto"; }
-  const LinearCounts& counts() const override { return chosen_ ? chosen_->counts() : counts_; }
+  const LinearCounts& counts() const override {
+    if (!instead_) return chosen_ ? chosen_->counts() : counts_;
+    counts_of_both_ = chosen_->counts();
+    return counts_of_both_ += instead_->counts();
+  }
 
  private:
+  static constexpr int most_for_direct_instead = 5;      // times largest_for_direct
+  static constexpr int most_iterations_before_it = 100;  // these take a part of the time of a factorization
+
+  bool can_be_direct(const LinearSystem& system) const {
+    return system.local.cols() <= most_for_direct_instead * options_.largest_for_direct;
+  }
+
+  /// The report of GMRES; where it has failed, that of a factorization of the same system, which is used from now on.
+  LinearReport or_directly(const LinearReport& report) {
+    if (report.solved || !system_) return report;
+    if (!instead_) instead_ = std::make_unique<SummedBalances>(std::make_unique<MumpsSolver>());
+    const LinearReport direct = instead_->factor(*system_);
+    is_solved_directly_ = direct.solved;
+    return direct.solved ? direct : report;
+  }
+
+  void forget_system() {
+    last_.forget();
+    system_.reset();
+    is_solved_directly_ = false;
+  }
+
   LinearSolver& chosen_for(const LinearSystem& system) {
     // MUMPS factorizes 1.4 to 2.8 times faster than UMFPACK, but it starts MPI, and a back-solve of few unknowns takes
     // it twice as long.
@@ -43,15 +85,25 @@ class AutomaticSolver final : public LinearSolver {
     const auto unknowns = system.local.cols();
     const bool is_for_mumps = parallel::size() > 1 || options_.bulk_changes_often || unknowns >= smallest_for_mumps;
     const char* const type = unknowns > options_.largest_for_direct ? "belos" : is_for_mumps ? "mumps" : "umfpack";
-    if (!chosen_ || chosen_->name() != type) {
-      options_.type = type;
-      chosen_ = make_linear_solver(options_);
+    LinearOptions options = options_;
+    options.type = type;
+    if (can_be_direct(system)) options.max_iterations = std::min(options.max_iterations, most_iterations_before_it);
+    if (!chosen_ || chosen_->name() != type || options.max_iterations != most_iterations_) {
+      most_iterations_ = options.max_iterations;
+      chosen_ = make_linear_solver(options);
     }
     return *chosen_;
   }
 
   LinearOptions options_;
   std::unique_ptr<LinearSolver> chosen_;
+  int most_iterations_ = 0;
+  // The last system that GMRES was to solve, and what solves it directly instead. GMRES tries each new system first.
+  LastSystem last_;
+  std::optional<LinearSystem> system_;
+  std::unique_ptr<LinearSolver> instead_;
+  bool is_solved_directly_ = false;
+  mutable LinearCounts counts_of_both_;
 };
 
 }  // namespace

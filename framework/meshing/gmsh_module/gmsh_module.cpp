@@ -143,9 +143,12 @@ double distance(const Vector& x, const Vector& from, const Vector& to) {
 
 /// A curve of the model as a chain of segments.
 struct Curve {
+  int tag;
   std::vector<int> ends;
   std::vector<Vector> points;
-  Vector low, high;
+  double curvature;  ///< the largest; 0 where it is straight
+  Vector low, high;  ///< of its bounding box
+  bool is_closed() const { return ends.front() == ends.back(); }
 };
 
 std::vector<Curve> all_curves() {
@@ -156,21 +159,25 @@ std::vector<Curve> all_curves() {
   for (const auto& [dim, tag] : entities) {
     gmsh::vectorpair ends;
     gmsh::model::getBoundary({{dim, tag}}, ends, false, false);
-    std::vector<double> from, to, at, parameters;
+    std::vector<double> from, to, at, parameters, curvatures;
     gmsh::model::getParametrizationBounds(dim, tag, from, to);
     for (int k = 0; k <= pieces; ++k) parameters.push_back(from[0] + (to[0] - from[0]) * k / pieces);
     gmsh::model::getValue(dim, tag, parameters, at);
-    Curve curve{{}, {}, {at[0], at[1], at[2]}, {at[0], at[1], at[2]}};
+    std::string type;
+    gmsh::model::getType(dim, tag, type);
+    if (type != "Line") gmsh::model::getCurvature(dim, tag, parameters, curvatures);
+    Curve curve{tag, {}, {}, curvatures.empty() ? 0 : *std::max_element(curvatures.begin(), curvatures.end()), {}, {}};
     for (const auto& [point, end] : ends) curve.ends.push_back(end);
     for (std::size_t i = 0; i + 2 < at.size(); i += 3) curve.points.push_back({at[i], at[i + 1], at[i + 2]});
-    for (const Vector& x : curve.points)
-      for (int k = 0; k < 3; ++k) {
-        curve.low[k] = std::min(curve.low[k], x[k]);
-        curve.high[k] = std::max(curve.high[k], x[k]);
-      }
+    auto &low = curve.low, &high = curve.high;
+    gmsh::model::getBoundingBox(dim, tag, low[0], low[1], low[2], high[0], high[1], high[2]);
     curves.push_back(std::move(curve));
   }
   return curves;
+}
+
+bool is_end(const Curve& curve, int point) {
+  return std::find(curve.ends.begin(), curve.ends.end(), point) != curve.ends.end();
 }
 
 /// How near to point `tag` of the model, which is at x, a curve comes: its other end, where the point is an end of it.
@@ -178,17 +185,30 @@ double nearness(const Curve& curve, int tag, const Vector& x, double farthest) {
   Vector apart{};
   for (int k = 0; k < 3; ++k) apart[k] = std::max({curve.low[k] - x[k], x[k] - curve.high[k], 0.0});
   if (length(apart) >= farthest) return farthest;
-  if (std::find(curve.ends.begin(), curve.ends.end(), tag) != curve.ends.end())
-    return curve.ends.size() == 2 ? length(difference(curve.points.front(), curve.points.back())) : farthest;
+  if (is_end(curve, tag))
+    return curve.is_closed() ? farthest : length(difference(curve.points.front(), curve.points.back()));
   double nearest = farthest;
+  if (curve.curvature > 0) {
+    std::vector<double> closest, parameter;
+    gmsh::model::getClosestPoint(1, curve.tag, {x[0], x[1], x[2]}, closest, parameter);
+    return std::min(nearest, length(difference(x, {closest[0], closest[1], closest[2]})));
+  }
   for (std::size_t k = 0; k + 1 < curve.points.size(); ++k)
     nearest = std::min(nearest, distance(x, curve.points[k], curve.points[k + 1]));
   return nearest;
 }
 
+/// How long edges at a point may be, if no edge of a bent curve may pass between it and the curve, or be all of the
+/// curve. The middle of an edge of length h is at most h/2 away from its curve, and h^2 curvature/8 where h is small;
+/// half of such a length leaves room for growth.
+double clear_of_chords(const Curve& curve, int tag, const Vector& x, double wanted) {
+  const bool at_end = is_end(curve, tag);
+  const double near = nearness(curve, tag, x, at_end ? 2 * wanted : wanted);
+  return std::min(wanted, at_end ? near / 2 : std::max(near, std::sqrt(near / curve.curvature)));
+}
+
 /// The points of the model that are nearer to others or to curves than edges are long.
 std::vector<Narrow> narrow_places(const CutBox& box) {
-  if (box.gap_edges == 0) return {};
   const std::vector<Curve> curves = all_curves();
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, 0);
@@ -198,9 +218,13 @@ std::vector<Narrow> narrow_places(const CutBox& box) {
     gmsh::model::getValue(dim, tag, {}, at);
     const Vector x{at[0], at[1], at[2]};
     const double wanted = box.size_at(x[0], x[1], x[2]);
-    double nearest = box.gap_edges * wanted;
-    for (const Curve& curve : curves) nearest = std::min(nearest, nearness(curve, tag, x, nearest));
-    const double size = std::max(nearest / box.gap_edges, box.least_size);
+    double size = wanted;
+    if (double nearest = box.gap_edges * wanted; nearest > 0) {
+      for (const Curve& curve : curves) nearest = std::min(nearest, nearness(curve, tag, x, nearest));
+      size = std::min(size, std::max(nearest / box.gap_edges, box.least_size));
+    }
+    for (const Curve& curve : curves)
+      if (curve.curvature > 0) size = clear_of_chords(curve, tag, x, size);
     if (size < wanted) narrow.push_back({x, size});
   }
   return narrow;

@@ -50,6 +50,42 @@ TEST_P(EveryLinearSolver, SolvesPoissonExactlyForADiscreteEigenvector) {
   EXPECT_LT((x - exact).lpNorm<Eigen::Infinity>(), 1e-9);
 }
 
+// GMRES is to have a residual below round-off, which it cannot: 'belos' says so.
+TEST(AutomaticSolver, SolvesDirectlyWhereGmresDoesNotConverge) {
+  constexpr int n = 300;
+  LinearOptions options;
+  options.tolerance = 1e-18;
+  options.largest_for_direct = n / 3;
+  const auto automatic = make_linear_solver(options);
+  for (const int seed : {7, 9}) {
+    const LinearSystem system = test::random_dominant(n, seed);
+    for (const int of : {8, 10}) {
+      const Vector exact = test::random_vector(n, of), b = system.local * exact;
+      EXPECT_LT((solve(*automatic, system, b) - exact).lpNorm<Eigen::Infinity>(), 1e-11);
+      options.type = "belos";
+      const auto alone = make_linear_solver(options);
+      Vector x;
+      EXPECT_TRUE(alone->factor(system).solved);
+      EXPECT_THAT(alone->solve(b, x).reason, HasSubstr("GMRES did not converge"));
+    }
+  }
+  EXPECT_EQ(automatic->name(), "belos");
+  EXPECT_EQ(automatic->counts().solves, 6);  // one by GMRES and two directly for each system
+}
+
+TEST(AutomaticSolver, LeavesFarLargerSystemsToGmres) {
+  constexpr int n = 300;
+  LinearOptions options;
+  options.tolerance = 1e-18;
+  options.largest_for_direct = n / 6;
+  const auto automatic = make_linear_solver(options);
+  const LinearSystem system = test::random_dominant(n, 7);
+  Vector x;
+  EXPECT_TRUE(automatic->factor(system).solved);
+  EXPECT_THAT(automatic->solve(system.local * test::random_vector(n, 8), x).reason,
+              HasSubstr("GMRES did not converge"));
+}
+
 TEST_P(EveryLinearSolver, SolvesANonsymmetricSystem) {
   constexpr int n = 300;
   const LinearSystem system = test::random_dominant(n, 7);

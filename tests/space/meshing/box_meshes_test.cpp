@@ -1,4 +1,5 @@
 // Meshes of boxes in space: structured ones and tetrahedra by gmsh, against what geometry and topology say.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -281,6 +282,44 @@ TEST(UnstructuredInSpace, NodesOfRimsLieOnTheirCurve) {
     EXPECT_GT(on_rim, 40);
   }
   EXPECT_GT(mesh.junctions.size(), 0U);
+}
+
+// Polygons that cross a disc and end beside its rim, where cells are coarse: an edge of the rim that passed on the
+// other side of this end would cross the polygon.
+TEST(UnstructuredInSpace, EdgesOfRimsClearWhatEndsBesideThem) {
+  const Eigen::AngleAxisd turn(0.8, Point(2, -1, 3).normalized());
+  for (const double gap_edges : {0.0, 0.5})
+    for (const bool mirrored : {false, true})
+      for (const double gap : {0.2, 0.03, 0.001}) {
+        Geometry geometry = box({-4, -4, -4}, {4, 4, 4});
+        const auto place = [&](double x, double y, double z) {
+          const Point at = turn * Point(x, y, z);
+          return mirrored ? Point(-at.x(), at.y(), at.z()) : at;
+        };
+        constexpr double radius = 2;
+        geometry.fractures = {disc("disc", {place(0, 0, 0), place(radius, 0, 0), place(0, radius, 0)})};
+        double crossing = 0;
+        for (const double angle : {0.3, 2.5, 4.1}) {
+          const double from = 0.5, to = radius - gap, x = std::cos(angle), y = std::sin(angle);
+          crossing += to - from;
+          geometry.fractures.push_back(
+              polygon(fmt::format("at_{}", angle), {place(from * x, from * y, -0.7), place(to * x, to * y, -0.7),
+                                                    place(to * x, to * y, 0.9), place(from * x, from * y, 0.9)}));
+        }
+        const Mesh mesh = generate_mesh(geometry, {.size = 3, .gap_edges = gap_edges});
+        expect_fills(geometry.box, mesh);
+        EXPECT_NEAR(junction_length(mesh), crossing, 1e-9);
+        for (int f = 1; f < 4; ++f) EXPECT_NEAR(area_of(mesh, f), 1.6 * crossing / 3, 1e-9);
+      }
+}
+
+// The rim of a disc that touches nothing has no place that is narrow.
+TEST(UnstructuredInSpace, RimsOfLoneDiscsAreNotRefined) {
+  Geometry geometry = box({0, 0, 0}, {10, 10, 10});
+  geometry.fractures = {disc("disc", ellipse({4, 5, 5}, {35 * pi / 180, 50 * pi / 180}, 2, 2))};
+  const Mesh refined = generate_mesh(geometry, {.size = 1, .gap_edges = 1}),
+             plain = generate_mesh(geometry, {.size = 1, .gap_edges = 0});
+  EXPECT_EQ(refined.nodes, plain.nodes);
 }
 
 TEST(UnstructuredInSpace, StrikeIsClockwiseFromNorthAndTheDipToItsRight) {
