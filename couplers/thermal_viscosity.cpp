@@ -76,11 +76,12 @@ class ThermalViscosity : public Coupler {
     if (options_.law == "exponential")
       return *options_.reference_viscosity *
              std::exp(-*options_.decay * (temperature - *options_.reference_temperature));
-    constexpr double factor = 2.414e-5, rise = 247.8, pole = 140;  // Pa s, K, K
+    constexpr double factor = 2.414e-5, rise = 247.8, pole = 140;  // Pa s, K, K: a published fit, within 2.5 %
     return factor * std::pow(10, rise / (temperature - pole));
   }
   Vector viscosities(const Field& temperature) const {
-    constexpr double coldest = 273, hottest = 640;  // K, of the law for water
+    // K, of the law for water: water is liquid between them, at some pressure.
+    constexpr double coldest = 273, hottest = 640;
     Vector values(temperature.size());
     for (int i = 0; i < values.size(); ++i) {
       const double t = temperature.accepted()[i];

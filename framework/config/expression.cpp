@@ -18,7 +18,7 @@
 namespace sprekk {
 namespace {
 
-constexpr std::size_t longest_expression = 4000;
+constexpr std::size_t longest_expression = 4000;  // characters: no formula is longer
 
 double minimum(const double* values, int count) { return *std::min_element(values, values + count); }
 double maximum(const double* values, int count) { return *std::max_element(values, values + count); }
@@ -251,8 +251,8 @@ namespace {
 
 /// Places and times at which dimensions are tested: none that a condition in an expression is likely to name.
 std::vector<Place> test_places() {
-  constexpr std::array times = {0.7318, 917.3, 5.2397e4, 8.7131e5, 1.1873e8};
-  constexpr std::array lengths = {0.3719, -17.193, 1193.7};
+  constexpr std::array times = {0.7318, 917.3, 5.2397e4, 8.7131e5, 1.1873e8};  // s, from seconds to years
+  constexpr std::array lengths = {0.3719, -17.193, 1193.7};                    // m, on both sides of 0
   std::vector<Place> places;
   for (const double t : times)
     for (const double x : lengths) {
@@ -271,7 +271,7 @@ struct Resized {
   /// Whether its values change as those of a quantity with this dimension, with places and times as plain numbers or
   /// with units.
   bool has_dimension(const Dimension& dimension, bool has_length, bool has_time) {
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-9;  // powers of units after a few operations
     for (const Place& place : test_places()) {
       Place resized = place;
       if (has_length) resized.x *= sizes[0];

@@ -8,14 +8,14 @@
 
 namespace sprekk {
 
-/// The least distance between a path and anything else, in edge lengths.
+/// The least distance between a path and anything else, in edge lengths: a cell must fit in between.
 inline constexpr double least_gap = 0.5;
 /// An end nearer than this to the outer boundary, in edge lengths, is moved onto the boundary.
 inline constexpr double boundary_snap = 0.01;
 /// An end nearer than this to a ridge of another fracture, in edge lengths, is moved to that point.
 inline constexpr double joint_snap = 0.01;
 /// A path that meets the outer boundary or another fracture at less than this angle passes too near to it, rad (15
-/// degrees).
+/// degrees): the cells between both have this angle.
 inline constexpr double least_incidence = 0.2617993877991494;
 
 /// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). Near a fracture or

@@ -22,8 +22,8 @@ struct TimeOptions {
   Origin scheme_origin;
   std::optional<double> smallest;  ///< s; a rejected step is not cut below it
   bool adaptive = false;
-  double largest = 0;  ///< s, of adaptive steps
-  double grow = 1.5, shrink = 0.5;
+  double largest = 0;               ///< s, of adaptive steps
+  double grow = 1.5, shrink = 0.5;  ///< of adaptive steps, by ten days of configs/tutorial/first_scene.yaml
   /// Ends the run before `end`, after the first step at whose end a column of history.csv has reached a value.
   struct Stop {
     std::string of;                       ///< the quantity, without its unit

@@ -12,7 +12,7 @@ namespace sprekk::fine_fracture {
 /// in some direction unless G_c + G_c'' > 0 in all: -1/2 < A < 1, weak anisotropy (Takei, Roman, Bico, Hamm and Melo,
 /// Phys. Rev. Lett. 110 (2013) 144301).
 struct Anisotropy {
-  static constexpr double low = -0.5, high = 1;  ///< of A, exclusive
+  static constexpr double low = -0.5, high = 1;  ///< of A, exclusive: exact, Takei and others 2013
   double strength = 0;                           ///< A
   double direction = 0;                          ///< theta_0, rad
   Spec spec();

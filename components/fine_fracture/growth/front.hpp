@@ -47,13 +47,14 @@ struct FrontState {
 
 /// Tolerances and limits of the search.
 struct FrontOptions {
-  double mesh_error = 1e-3;           ///< of ln K between tips, see most_equal_front.hpp; 0: each K is the toughness
-  double load_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)|, or the excess, of growing tips
-  double direction_tolerance = 1e-6;  ///< |K_II/K_I| of growing tips
-  double increment = 0;               ///< m, the scale of advances
-  double shortest = 0;                ///< m, of a new segment
+  double mesh_error = 1e-3;  ///< of ln K between tips, see most_equal_front.hpp; 0: each K is the toughness
+  /// |ln(K_eq/K_IC)|, or the excess, of growing tips: far below the errors of the meshes.
+  double load_tolerance = 1e-7;
+  double direction_tolerance = 1e-6;                              ///< |K_II/K_I| of growing tips
+  double increment = 0;                                           ///< m, the scale of advances
+  double shortest = 0;                                            ///< m, of a new segment
   double longest_jump = std::numeric_limits<double>::infinity();  ///< m, of a tip in one step
-  int most_trials = 20;
+  int most_trials = 20;                                           ///< of a step, before it is cut: 8 to 10 are needed
 };
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,

@@ -29,7 +29,7 @@ struct ArmAperture {
 /// `partners`: for each cell the place of the cell on the other side, or -1.
 inline std::vector<ArmAperture> junction_apertures(const std::vector<CellAperture>& cells,
                                                    const std::vector<int>& partners) {
-  constexpr double least_share = 0.1;
+  constexpr double least_share = 0.1;  // of the widest arm: a conductance of a thousandth
   const int count = static_cast<int>(cells.size());
   const int widest = static_cast<int>(
       std::max_element(cells.begin(), cells.end(),

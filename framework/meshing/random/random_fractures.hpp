@@ -55,6 +55,7 @@ struct RandomFractures {
 /// InputError when there is no place for all of them, or when the set has none or more than most_random_fractures.
 void draw_fractures(const RandomFractures& set, Geometry& geometry);
 
+/// A mesh of more would have millions of cells.
 inline constexpr int most_random_fractures = 10000;
 
 }  // namespace sprekk
