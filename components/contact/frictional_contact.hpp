@@ -105,9 +105,9 @@ class FrictionalContact : public Component,
   void deactivate_conditions() override;
   /// Keeps cells that have slid back over their asperities in the state stick. Sliding back closes the fracture, which
   /// reduces its contact pressure and so its friction. Walls may then come to rest far away although they could also
-  /// have stayed where they were. The state in which they stick is the one that slip in small increments leads to:
-  /// stick is left where the bound is reached, and within given states of all cells tractions are linear in the load,
-  /// and so within the (convex) cone of friction all along the step if they are at both of its ends.
+  /// have stayed where they were. Small increments lead to the state in which they stick: as long as no cell changes
+  /// its state, tractions are linear in the load, so they are within the (convex) cone of friction all along the step
+  /// if they are at both of its ends.
   int keep_states() override;
   int release_violated() override;
   void release_kept() override { kept_.clear(); }

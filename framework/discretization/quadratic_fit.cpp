@@ -15,9 +15,9 @@ namespace sprekk {
 namespace {
 
 constexpr int coefficients = (dimension + 1) * (dimension + 2) / 2;
-// Below this share of a monomial that the ones before it do not make, cells do not tell it apart from them.
+// A monomial is left out where, at the cells, less than this share of it is independent of those before it.
 constexpr double independent = 0.1;
-// Of half the length of a fracture cell: a line that passes its end at less crosses it. Lines between centres of
+// Tolerance, in half lengths of a fracture cell, for a line that crosses it at its end: lines between centres of
 // rectangles pass through nodes.
 constexpr double grazes = 1e-6;
 
@@ -84,7 +84,7 @@ Tensor along_and_across(const std::vector<Point>& centres) {
   return principal_axes(spread).axes.rowwise().reverse();
 }
 
-/// The columns that columns before them do not make up, in their order.
+/// The columns that are independent of those before them, in their order.
 Eigen::MatrixXd independent_columns(const Eigen::MatrixXd& all) {
   Eigen::MatrixXd kept(all.rows(), 0);
   for (Eigen::Index k = 0; k < all.cols(); ++k) {

@@ -75,9 +75,8 @@ std::vector<int> columns_outside(const SparseMatrix& a, int first, int end, std:
   return found;
 }
 
-/// Whether the flux at a row leads from the rows [first, end) to local unknowns whose own rows do not resist a change
-/// of theirs, such as the potential of an entity whose flux is given: these unknowns follow the change, and do not
-/// determine the constant.
+/// Whether the flux at a row leads from the rows [first, end) to local unknowns with a zero diagonal, such as the
+/// potential of an entity whose flux is given: these follow any change, and do not determine the constant.
 bool leads_to_what_follows(const SparseMatrix& a, int flux, int first, int end, const std::vector<char>& is_local) {
   bool leads = false;
   for (SparseMatrix::InnerIterator entry(a, flux); entry; ++entry) {

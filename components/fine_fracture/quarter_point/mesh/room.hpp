@@ -7,8 +7,9 @@
 
 namespace sprekk::fine_fracture {
 
-/// Points of a path without a bend, with one kind of walls on both sides: they are passed as if they were not there, or
-/// the straight end of the crack ends at them, so that rooms are continuous in the bends of the path.
+/// What a point of a path does where the path has no bend and one kind of walls on both sides. Either it is passed as
+/// if it were not there; or the straight end of the crack ends there, so that rooms are continuous in the bends of the
+/// path.
 enum class StraightPoints { are_passed, end_it };
 
 /// A tip with the straight end of its crack.
