@@ -19,7 +19,7 @@ struct ParameterError {
   double at(double factor) const;  ///< the error at this factor of the middle level
 };
 
-/// From the values on the levels 2, 1 and 1/2. `scale`: a size of the value, of which round-off is told.
+/// From the values on the levels 2, 1 and 1/2. `scale`: a size of the value, by which round-off is recognized.
 ParameterError parameter_error(double coarse, double middle, double fine, double scale);
 
 /// The error of a value that depends on several parameters.

@@ -21,10 +21,10 @@ struct Anisotropy {
   double smallest() const;  ///< of toughness
 };
 
-/// Factors with which the criterion of isotropic rock tells what the given factors do in anisotropic rock, for a tip
-/// whose path ends in the direction `ahead` (rad from the x axis): they have K_II = 0 where G/G_c is largest straight
-/// ahead; if not, their K_II vanishes behind the infinitesimal kink for which it is largest; and their K_eq over the
-/// toughness straight ahead is the root of the largest G/G_c. The same factors where there is no anisotropy.
+/// Translates the factors of a tip in anisotropic rock, whose path ends in the direction `ahead` (rad from the x axis),
+/// into those for which isotropic rock gives the same answer. They have K_II = 0 where G/G_c is largest straight ahead;
+/// otherwise their K_II vanishes behind the infinitesimal kink for which it is largest. Their K_eq over the toughness
+/// straight ahead is the root of the largest G/G_c. In isotropic rock they are the given factors.
 Sifs felt_sifs(const Sifs& sifs, double ahead, const Anisotropy& anisotropy);
 
 }  // namespace sprekk::fine_fracture
