@@ -19,7 +19,7 @@ struct TipEnd {
 /// A fracture with the paths that its ends have added in the fine level. Arc lengths count from the first point in the
 /// coarse level: added paths are below 0 and above `length`.
 struct FracturePath {
-  std::vector<Point> points;  ///< straight pieces are one segment, but for points where fractures meet or turn
+  std::vector<Point> points;  ///< straight pieces are one segment, except for points where fractures meet or turn
   std::vector<double> arc;    ///< m, of each point
   double length;              ///< m, of the coarse level
   bool first_is_tip, last_is_tip;

@@ -23,7 +23,7 @@ constexpr double least_part = 0.1;       ///< of the last part that regula falsi
 constexpr double shortest_part = 1e-2;   ///< of an increment: a trial that cannot be solved is shortened down to this
 constexpr double least_drop = 0.02;      ///< ln(K_eq/K_IC) by which two trials this near to each other differ at a drop
 constexpr double drop_part = 1e-4;       ///< of an increment: a drop is found to this
-constexpr double at_limit = 1e-9;        ///< of a length that is at its limit, but for rounding
+constexpr double at_limit = 1e-9;        ///< of a length that is at its limit, except for rounding
 constexpr double least_load = 1e-3;      ///< for the logarithm
 
 Point direction(double angle) { return {std::cos(angle), std::sin(angle)}; }

@@ -90,9 +90,9 @@ Vector without_resistance(const LinearSystem& system, const SparseMatrix& rows, 
 }
 
 /// The largest |A v| of a row over its terms |A| |v|, among rows in which v is noticeable. Where A has a null vector
-/// but for the rounding of its entries, this is round-off for it in every row, whatever the scales of rows and columns.
-/// A norm alone would take a vector for a null vector that is none in rows which are scaled down. Terms below 1e-4 of
-/// the largest do not count, since a vector found by inverse iteration is inaccurate there.
+/// except for the rounding of its entries, this is round-off for it in every row, whatever the scales of rows and
+/// columns. A norm alone would take a vector for a null vector that is none in rows which are scaled down. Terms below
+/// 1e-4 of the largest do not count, since a vector found by inverse iteration is inaccurate there.
 double worst_row(const SparseMatrix& rows, const Vector& v) {
   constexpr double noticeable = 1e-4;  // as above
   const Vector residual = (rows * v).cwiseAbs(), terms = rows.cwiseAbs() * v.cwiseAbs();

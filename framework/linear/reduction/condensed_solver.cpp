@@ -81,9 +81,9 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
   return reduced;
 }
 
-/// Whether no equation on interfaces responds to an unknown of the bulk that was left to them, but for the round-off of
-/// what its cell exchanges with the rest of its bulk: then neither the fractures nor what is stored hold that part of
-/// the bulk, or too weakly to be seen after the elimination.
+/// Whether no equation on interfaces responds to an unknown of the bulk that was left to them, except for the round-off
+/// of what its cell exchanges with the rest of its bulk: then neither the fractures nor what is stored hold that part
+/// of the bulk, or too weakly to be seen after the elimination.
 bool is_lost(const BulkSplitting& split, const SparseMatrix& reduced,
              const BulkSchurComplement::RowMatrix& schur_rows) {
   constexpr double lost = 1e-13;  // of the terms of an entry, each of them a sum of many: some hundred roundings

@@ -37,7 +37,7 @@ struct Crossings {
 };
 
 /// The crossings, or nothing where an edge has two of them. A border through a node of the mesh, as where it begins at
-/// a fracture, meets the corners of elements there but for round-off: these are no crossings of edges.
+/// a fracture, meets the corners of elements there except for round-off: these are no crossings of edges.
 std::optional<Crossings> crossings_of(const Corners& corners, const std::vector<FineRock::Border>& borders) {
   const Point low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Point high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
