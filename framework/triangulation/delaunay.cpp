@@ -31,7 +31,7 @@ bool is_in_circle(const Point& a, const Point& b, const Point& c, const Point& d
   const Point p = a - d, q = b - d, r = c - d;
   const double p2 = p.squaredNorm(), q2 = q.squaredNorm(), r2 = r.squaredNorm();
   const double qr = cross(q, r), rp = cross(r, p), pq = cross(p, q);
-  constexpr double rounding = 1e-14;  // some roundings of these products: below, the exact sign
+  constexpr double rounding = 1e-14;  // some roundings of these products: what is nearer is on the circle
   const double sizes = p2 * q.norm() * r.norm() + q2 * r.norm() * p.norm() + r2 * p.norm() * q.norm();
   return p2 * qr + q2 * rp + r2 * pq > rounding * sizes;
 }

@@ -66,8 +66,8 @@ RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, 
 // Aggregates of what is strongly coupled follow fractures that conduct well. Prolongators are smoothed with the whole
 // matrix: what is left of rows of multi-point fluxes without their small entries may have no positive diagonal.
 void follow_strong_couplings(ParameterList& list) {
-  // A_ij^2 over a_ii a_jj: 164 iterations become 58 in case 3 of the benchmark in space; 0.08: 54, in eight times the
-  // set-up.
+  // Of a_ij^2 over a_ii a_jj: 164 iterations become 58 in case 3 of the benchmark in space; with 0.08 they are 54, in
+  // eight times the set-up.
   constexpr double strong = 0.02;
   list.set("aggregation: drop tol", strong);
   list.set("sa: use filtered matrix", false);

@@ -29,7 +29,7 @@ bool PassChanges::only_grow() const {
 }
 
 bool PassChanges::explode() const {
-  constexpr double fast = 10;  // twice in a row: no iteration comes back from that
+  constexpr double fast = 10;  // growth by a pass, twice in a row, at which an iteration is given up
   const std::size_t n = sizes_.size();
   return n > 2 && sizes_[n - 1] > 1 && sizes_[n - 1] > fast * sizes_[n - 2] && sizes_[n - 2] > fast * sizes_[n - 3];
 }

@@ -18,7 +18,7 @@ class StalledAcceleration {
   /// pass, scaled.
   Next after(double change) {
     if (is_plain_) {
-      constexpr double clearly_more = 2;  // times the change before: plain passes are taken back
+      constexpr double clearly_more = 2;  // times the first change: plain passes are taken back
       if (change > clearly_more * first_) return stop(Next::back);
       return comes_nearer(change) ? Next::plain : stop(Next::accelerated);
     }
