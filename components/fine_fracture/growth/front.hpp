@@ -59,10 +59,10 @@ struct FrontOptions {
 };
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
-///   K_eq = K_IC and K_II = 0 at tips that grow, K_eq <= K_IC at tips that do not, by a quasi-Newton method for the
-///   tips that grow; which do is decided anew after each trial. K of several tips is known to the error of the mesh
-///   only: of all fronts within this error the one with the most equal advances is sought (most_equal_front.hpp). Of
-///   several solutions it seeks the one nearest to the start of the step.
+///   K_eq = K_IC and K_II = 0 at tips that grow,    K_eq <= K_IC at tips that do not,
+/// by a quasi-Newton method for the tips that grow; which do is decided anew after each trial. K of several tips is
+/// known to the error of the mesh only: of all fronts within this error the one with the most equal advances is sought
+/// (most_equal_front.hpp). Of several solutions it seeks the one nearest to the start of the step.
 ///
 ///   Front front(…, states of the trial without growth, …);
 ///   while (front.verdict() == again) front.learn(states of the trial with lengths(), angles());
