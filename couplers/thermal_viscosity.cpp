@@ -76,12 +76,11 @@ class ThermalViscosity : public Coupler {
     if (options_.law == "exponential")
       return *options_.reference_viscosity *
              std::exp(-*options_.decay * (temperature - *options_.reference_temperature));
-    constexpr double factor = 2.414e-5, rise = 247.8, pole = 140;  // Pa s, K, K: a published fit, within 2.5 %
+    constexpr double factor = 2.414e-5, rise = 247.8, pole = 140;  // Pa s, K, K
     return factor * std::pow(10, rise / (temperature - pole));
   }
   Vector viscosities(const Field& temperature) const {
-    // K, of the law for water: water is liquid between them, at some pressure.
-    constexpr double coldest = 273, hottest = 640;
+    constexpr double coldest = 273, hottest = 640;  // K, of the law for water
     Vector values(temperature.size());
     for (int i = 0; i < values.size(); ++i) {
       const double t = temperature.accepted()[i];

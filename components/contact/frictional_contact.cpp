@@ -94,7 +94,7 @@ void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
     const FractureCell& cell = mesh_.fracture_cells[i];
     stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *=
         cell.measure / fracture_measure_[cell.fracture];
-    constexpr double at_most = 0.5;  // times the tangential stiffness over mu_s tan psi: the map must be a contraction
+    constexpr double at_most = 0.5;  // times the tangential stiffness over mu_s tan psi
     const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
     for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_}) {
       // The same stiffness for all tangents: the return to the cone then does not depend on the directions of the

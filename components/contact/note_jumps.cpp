@@ -30,8 +30,8 @@ Slips largest_slips(const JumpsOfStep& step) {
 }
 
 void note_slips(Notes& notes, const std::string& name, const JumpsOfStep& step) {
-  constexpr double rounding = 1e-12;     // m: far below any slip
-  constexpr double springs_show = 0.05;  // of the slip: an error that is seen in a figure
+  constexpr double rounding = 1e-12;     // m, far below any slip
+  constexpr double springs_show = 0.05;  // of the slip
   const Slips largest = largest_slips(step);
   const bool is_of_springs = largest.of_springs > step.slip_at_start / 2;
   if (step.slip_at_start > rounding && !is_of_springs)
@@ -57,7 +57,7 @@ void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const J
   SPREKK_EXPECT(static_cast<int>(step.is_open.size()) == mesh.fracture_cell_count(), step.is_open.size());
   note_slips(notes, name, step);
   for (const Fracture& fracture : mesh.fractures) {
-    constexpr double friction_shows = 1e-2;  // of what presses the walls together: less is not held by friction
+    constexpr double friction_shows = 1e-2;  // of what presses the walls together
     double length = 0, jump = 0, sheared = 0, pressed = 0;
     bool all_open = true;
     for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {

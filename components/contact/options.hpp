@@ -26,7 +26,7 @@ struct Options {
   RateAndStateOptions rate_and_state;
   bool depends_on_rate = false;  ///< whether the scene has the section
   ClosureOptions closure;
-  /// Jump over the length of its fracture from where on a note says that it is large: the limit of linear theory.
+  /// Jump over the length of its fracture from where on a note says that it is large.
   double large_jump = 0.01;
   std::vector<std::string> fractures;  ///< where the contact is; all if there are none
   Origin fractures_origin;

@@ -92,7 +92,7 @@ Trial FrictionalContact::trial(int i) const {
   if (!kept_.empty() && kept_[i] && !t.is_open()) t.bound = std::numeric_limits<double>::infinity();
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
   t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
-  constexpr double round_off = 1e-10;  // of the traction that makes the slip: far below any friction that matters
+  constexpr double round_off = 1e-10;  // of the traction that makes the slip
   t.least_bound = round_off * c_t * magnitude<dimension - 1>(u_t);
   if (rate_and_state_ && rate_and_state_->has_step()) t.at_rate = at_rate(i, t);
   return t;

@@ -50,7 +50,7 @@ struct Options {
   double aperture_floor = 1e-7;  ///< m
   std::string transmissivity = "cubic_law";
   std::optional<Data> transmissivity_value;  ///< m^3
-  bool has_law = false;  ///< whether `law` gives the transmissivity, and the two above have no effect
+  bool has_law = false;                      ///< whether `law` says it, and the two above do not
   LawOptions law;
   std::string normal_permeability = "cubic_law";
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
