@@ -143,8 +143,9 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   if (b_norm == 0) return report;
 
   Vector r = b, y = x;
-  constexpr double safely = 0.5;    // of the tolerance, since GMRES tests another norm than the loop below
-  constexpr int most_restarts = 6;  // of GMRES, each from the true residual
+  // The loop below restarts GMRES from the true residual.
+  constexpr double safely = 0.5;  // of the tolerance, since GMRES tests another norm than the loop below
+  constexpr int most_restarts = 6;
   double r_norm = b_norm, wanted_norm = safely * tolerance_ * b_norm;
   BlockResidual measured;
   // Backward error of a block that is round-off; residual of all with which it may be.
