@@ -62,7 +62,7 @@ class Aperture : public Coupler, public FollowsMesh, public Stabilizes, public F
     const Vector& initial = fluid_.initial_aperture();
     Vector least(initial.size());
     const Vector jump = contacts_.jump();
-    constexpr double half = 0.5;
+    constexpr double half = 0.5;  // of an aperture, by which it closes in a pass at most: it stays positive
     for (Eigen::Index i = 0; i < least.size(); ++i) {
       const double opening = jump[dimension * i];
       least[i] = -std::max({opening, half * (initial[i] + opening), 0.0});

@@ -219,7 +219,7 @@ class Biot : public Coupler,
   }
 
   void note_step(Notes& notes, const StepTime&) const override {
-    constexpr double much = 2;
+    constexpr double much = 2;  // times all that is given: rock would open before
     const double load = rock_.largest_load(), given = fluid_.largest_given_pressure();
     Eigen::Index largest = 0;
     const double pressure = fluid_.pressure().now().maxCoeff(&largest);

@@ -18,9 +18,9 @@
 namespace sprekk::couplers {
 namespace {
 
-constexpr double room_temperature = 293.15;   // K
-constexpr double ice_point = 273.15;          // K
-constexpr double coldest = 0, hottest = 150;  // degrees Celsius, of the law for water
+constexpr double room_temperature = 293.15;   // K: 20 °C, to which tables refer
+constexpr double ice_point = 273.15;          // K, 0 degrees Celsius
+constexpr double coldest = 0, hottest = 150;  // degrees Celsius, of the law for water: the range of Kell 1975
 constexpr double most_that_varies = 0.05;     // of the density; beyond it a note says what is neglected
 
 struct BuoyancyOptions {
@@ -131,9 +131,10 @@ class DensityLaw {
     return {value + slope * (t - within), slope};
   }
   static std::array<double, 2> kell(double t) {
+    // Kell 1975, kg/m^3 by degrees Celsius.
     constexpr std::array<double, 6> numerator = {999.83952,     16.945176,    -7.9870401e-3,
                                                  -46.170461e-6, 105.56302e-9, -280.54253e-12};
-    constexpr double denominator = 16.879850e-3;
+    constexpr double denominator = 16.879850e-3;  // the same
     double sum = 0, slope = 0;
     for (int k = 5; k >= 0; --k) {
       slope = slope * t + sum;

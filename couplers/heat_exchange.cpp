@@ -135,7 +135,7 @@ class HeatExchange : public Coupler {
 
   /// Whether the lines from the centre to the ridges are at right angles to these.
   bool is_exact_by_two_points(int cell) const {
-    constexpr double round_off = 1e-9;
+    constexpr double round_off = 1e-9;  // of the distance: round-off of coordinates
     return std::ranges::all_of(mesh_.fracture_cells[cell].ridges, [&](int ridge) {
       const double apart = (mesh_.ridges[ridge].center - mesh_.fracture_cells[cell].center).norm();
       return apart <= (1 + round_off) * distance_to_ridge(mesh_, cell, ridge);

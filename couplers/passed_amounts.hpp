@@ -11,11 +11,11 @@
 
 namespace sprekk::couplers {
 
-/// Fluid that passes from one part to another, an amount for each entity (volume_unit): what has passed by the
-/// solution for `by`, and what of it the equations of `counting` have counted. So nothing is lost when the two are
-/// solved one after the other, or one of them in substeps. Only the difference of both sums is kept at the end of a
-/// step: sums since the start would have the round-off of all fluid that has ever passed, which may be any multiple of
-/// what passes now.
+/// Fluid that passes from one part to another, an amount for each entity (volume_unit). Two sums are kept: what has
+/// passed, by the solution for `by`, and what of it the equations of `counting` have counted. So nothing is lost when
+/// the two are solved one after the other, or one of them in substeps. At the end of a step only the difference of the
+/// sums is kept: sums since the start would have the round-off of all fluid that has ever passed, which may be any
+/// multiple of what passes now.
 class PassedAmounts {
  public:
   /// Adds the fields `exchanged` and `counted` of a coupler. `location`: where the amounts are.

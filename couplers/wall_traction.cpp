@@ -150,7 +150,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
         pressure[point.cells[0]] = std::max(pressure[point.cells[0]], 0.0);
     Eigen::Index lowest = 0;
     const double suction = -pressure.minCoeff(&lowest);
-    constexpr double rounding = 1e-6;
+    constexpr double rounding = 1e-6;  // of the largest pressure, far above round-off
     if (suction <= rounding * pressure.maxCoeff() || suction <= 0 || alpha_[lowest] == 0) return;
     notes.add(fluid_->pressure().name() + " suction",
               fmt::format("{} falls to {:.3g} Pa at {} (suction: it pulls the walls of the fracture together, which a "
@@ -215,7 +215,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     int deepest = 0;
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
       if (jump[dimension * i] < jump[dimension * deepest]) deepest = i;
-    constexpr double rounding = 1e-6;  // of the largest jump
+    constexpr double rounding = 1e-6;  // of the largest jump: far above round-off
     if (jump.size() == 0 || jump[dimension * deepest] >= -rounding * jump.lpNorm<Eigen::Infinity>()) return;
     notes.add("overlapping walls of " + rock_.wall_traction().spec().owner,
               fmt::format("walls of fractures overlap by {:.3g} m at {} (no contact keeps them apart) {}",

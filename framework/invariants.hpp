@@ -36,7 +36,7 @@ inline bool is_finite(const SparseMatrix& matrix) {
   return true;
 }
 
-/// Of the larger of two values that ought to be equal: what rounding may leave between them.
+/// Of the larger of two values that ought to be equal: how far rounding may take them apart, with much room.
 inline constexpr double nearly_equal = 1e-9;
 
 /// Has length one.

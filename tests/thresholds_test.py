@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Every threshold of the sources has a name, and a row in docs/numerics/tolerances.md that tells its value, and that breaking
-this is noticed.
+"""Every threshold of the sources has a name, and a comment beside it that says why it has this value; the numbers that
+docs/numerics/tolerances.md tells are those of the sources.
 
 A number counts as a threshold where it has a decimal point or a power of ten and is none of the few of NO_THRESHOLDS, and, where
 it is whole, from SMALLEST_WHOLE on in a comparison, a minimum, a maximum or a clamp. It has a name where it defines a constant or
-is the default of a parameter or member. Without arguments: checks the tree this file is in, then itself on planted violations.
+is the default of a parameter or member. A comment is beside it on its own line, or above it, or above the definitions that are
+directly above it; a unit alone is none. Without arguments: checks the tree this file is in, then itself on planted violations.
 Exit code 1 if anything is wrong.
 """
 
@@ -244,93 +245,75 @@ def numbers_of_cell(cell):
     return values
 
 
-ROW = re.compile(r"^\|(.*)\|\s*$", re.MULTILINE)
-ANSWERS = ("no", "refused", "tolerance", "yes")
+NAMED_IN = re.compile(r"((?:`\w+`(?:, )?)+) in ((?:`[\w./]+`(?: and )?)+)")
 
 
-class Row:
-    """One of the page: the values that it gives constants of files."""
-
-    def __init__(self, line, cells, files):
-        self.line = line
-        names, values, places, _, _, self.answer, self.checked = cells
-        self.names = re.findall(r"`(\w+)`", names)
-        self.values = numbers_of_cell(values)
-        self.places = re.findall(r"`([\w./*]+)`", places)
-        self.files = [[file for file in files if ("/" + file).endswith("/" + place)] for place in self.places]
-
-    def problems(self, root):
-        if not self.names:
-            yield "names nothing"
-        if (len(self.names) > 1 and len(self.values) not in (1, len(self.names))) or None in self.values:
-            yield f"has {len(self.names)} names and the values {self.values}"
-        for place, found in zip(self.places, self.files):
-            if len(found) != 1:
-                yield f"names {place}, which is {len(found)} files (say more of its path)"
-        if not self.places:
-            yield "names no file"
-        if not self.answer.startswith(ANSWERS):
-            yield f"says '{self.answer}' of the answer ({', '.join(ANSWERS)})"
-        if self.answer.startswith(("yes", "tolerance")) and not self.checked:
-            yield "is one on which the answer depends and names no test, parameter or experiment"
-        for test in re.findall(r"`(tests/[\w./]+)`", self.checked):
-            if not (root / test).exists():
-                yield f"names {test}, which is no file"
-
-    def values_of(self, file, name):
-        if [file] not in self.files:
-            return []
-        if len(self.names) == 1:  # maybe of a list
-            return self.values if name in self.names else []
-        values = self.values if len(self.values) == len(self.names) else self.values * len(self.names)
-        return [value for other, value in zip(self.names, values) if other == name]
-
-
-def rows_of(text, files):
-    for match in ROW.finditer(text):
-        cells = [cell.strip() for cell in match.group(1).split("|")]
-        if len(cells) == 7 and cells[0] != "name" and set(cells[0]) != {"-"}:
-            yield Row(text.count("\n", 0, match.start()) + 1, cells, files)
+def told(text):
+    """(line, name, value, end of the path) of each number of the page: of the cells "1e-2, 0.9" and "`closed`, `near` in `a.cpp`"."""
+    for line, row in enumerate(text.splitlines(), 1):
+        cells = [cell.strip() for cell in row.strip().strip("|").split("|")]
+        for at in range(1, len(cells)):
+            found = [(names, place) for names, places in NAMED_IN.findall(cells[at]) for place in re.findall(r"`([\w./]+)`", places)]
+            values = numbers_of_cell(cells[at - 1]) if found else []
+            for names, place in found:
+                for k, name in enumerate(re.findall(r"`(\w+)`", names)):
+                    yield line, name, values[k] if len(values) > 1 and k < len(values) else values[0], place
 
 
 def are_same(a, b):
     return a is not None and b is not None and math.isclose(a, b, rel_tol=1e-9)
 
 
+# A definition, in the run of those that one comment may stand above.
+DEFINITION = re.compile(r"^\s*(?:(?:static|inline)\s+)*(?:constexpr\b|(?:std::optional<double>|double|int|long|std::size_t)\s+\w+\s*=)")
+
+
+def has_comment(lines, first, last):
+    """Whether one of more than a word is beside the definition in these lines."""
+    own = " ".join(line.partition("//")[2] for line in lines[first : last + 1])
+    end = first
+    while end > 0 and DEFINITION.match(lines[end - 1]):
+        end -= 1
+    begin = end
+    while begin > 0 and lines[begin - 1].lstrip().startswith("//"):
+        begin -= 1
+    return any(len(re.findall(r"[\w^]+", text)) > 1 for text in (own, " ".join(lines[begin:end])))
+
+
 def violations(root):
     found = []
     files = sorted(file.relative_to(root).as_posix() for top in FOLDERS for file in (root / top).rglob("*.?pp"))
-    rows = list(rows_of((root / PAGE).read_text(encoding="utf-8"), files))
-    for row in rows:
-        found += [f"{PAGE}:{row.line} {problem}" for problem in row.problems(root)]
-    used = set()
     exempt = set()
     keys_of = {}
+    defined = {}  # (path, name): values
     for path in files:
-        code = code_of((root / path).read_text(encoding="utf-8"))
+        text = (root / path).read_text(encoding="utf-8")
+        code, lines = code_of(text), text.splitlines()
         exempt.update((path, name) for name, *_ in declarations(path, code))
         exempt.update((path, literal) for literal in NUMBER.findall(code))
         for line, literal in raw_numbers(path, code):
             if not is_exempt(path, literal):
-                found.append(f"{path}:{line} has the number {literal} without a name (give it one, and a row in {PAGE})")
-        for name, expression, start, _, kind in declarations(path, code):
-            line = code.count("\n", 0, start) + 1
-            listed = [(row, value) for row in rows for value in row.values_of(path, name)]
-            used.update((row.line, name) for row, _ in listed)
-            if not is_threshold(expression):
-                continue
-            for value in numbers_of(expression):
-                if listed and value is not None and not any(are_same(value, other) for _, other in listed):
-                    found.append(f"{path}:{line} {name} is {value:g}; {PAGE}:{listed[0][0].line} says "
-                                 f"{', '.join(f'{other:g}' for _, other in listed if other is not None)}")
-            if listed or is_exempt(path, name) or (kind is not CONSTANT and not path.endswith(".hpp")):
+                found.append(f"{path}:{line} has the number {literal} without a name (give it one, and a comment beside it)")
+        for name, expression, start, end, kind in declarations(path, code):
+            defined.setdefault((path, name), []).extend(numbers_of(expression))
+            if not is_threshold(expression) or is_exempt(path, name) or (kind is not CONSTANT and not path.endswith(".hpp")):
                 continue
             folder = path.rpartition("/")[0]
-            if kind is CONSTANT or name not in keys_of.setdefault(folder, parameters(root, folder)):
-                found.append(f"{path}:{line} {name} = {expression.strip()} has no row in {PAGE}")
-    for row in rows:
-        found += [f"{PAGE}:{row.line} names {name}, which its files do not have" for name in row.names
-                  if (row.line, name) not in used]
+            if kind is not CONSTANT and name in keys_of.setdefault(folder, parameters(root, folder)):
+                continue
+            statement = start + len(code[start:end]) - len(code[start:end].lstrip())
+            first, last = code.count("\n", 0, statement), code.count("\n", 0, end)
+            if kind is ARGUMENT:  # the comment is that of the function
+                while first > 0 and lines[first - 1].strip() and not re.search(r"^\s*//|[;{}]\s*$", lines[first - 1]):
+                    first -= 1
+            if not has_comment(lines, first, last):
+                found.append(f"{path}:{first + 1} {name} = {expression.strip()} has no comment that says why (a part of what, why this value)")
+    for line, name, value, place in told((root / PAGE).read_text(encoding="utf-8")):
+        values = [values for (path, other), values in defined.items() if other == name and ("/" + path).endswith("/" + place)]
+        if len(values) != 1:
+            found.append(f"{PAGE}:{line} names {name} in {place}, of which there are {len(values)}")
+        elif not any(are_same(value, other) for other in values[0]):
+            found.append(f"{PAGE}:{line} says {value} of {name} in {place}, which is {', '.join(str(other) for other in values[0])}")
     return found + [f"tests/thresholds_test.py exempts {name} of {file}, which is not there" for file, name, _ in EXEMPT_ONES
                     if root == Path(__file__).resolve().parent.parent and (file, name) not in exempt]
 
@@ -342,30 +325,28 @@ PLANTED = (
     ("framework/a/a.cpp", "double f(double x) {\n  const double least = 1e-7 * x;\n  return least;\n}\n", "the number 1e-7"),
     ("framework/a/a.cpp", "bool f(int n) { return n > 40; }\n", "framework/a/a.cpp:1 has the number 40"),
     ("framework/a/a.cpp", "int f(int n) { return std::min(n, 1'000); }\n", "has the number 1'000"),
-    ("framework/a/a.cpp", "constexpr double far = 1e9;\n", "framework/a/a.cpp:1 far = 1e9 has no row"),
-    ("framework/a/a.cpp", "constexpr double small = 1e-7, far = 1e9;\n", "far = 1e9 has no row"),
-    ("framework/a/a.cpp", "constexpr double angle = 20 * std::numbers::pi / 180;\n", "angle = 20 * std::numbers::pi / 180 has no row"),
-    ("framework/a/a.cpp", "constexpr std::array parts = {0.3, 0.6};\n", "parts = {0.3, 0.6} has no row"),
-    ("framework/a/a.cpp", "constexpr double small = 1e-8;\n", "small is 1e-08; docs/numerics/tolerances.md:3 says 1e-07"),
-    ("framework/a/a.cpp", "constexpr double small = 1e-7;\nint f() {\n  constexpr double small = 1e-6;\n}\n",
-     "framework/a/a.cpp:3 small is 1e-06"),
-    ("framework/a/a.cpp", "constexpr double other = 2;\n", "docs/numerics/tolerances.md:3 names small, which its files do not have"),
-    ("framework/a/a.hpp", "struct Options {\n  double least = 0.2;\n};\n", "framework/a/a.hpp:2 least = 0.2 has no row"),
-    ("framework/a/a.hpp", "void f(double least = 0.2);\n", "framework/a/a.hpp:1 least = 0.2 has no row"),
-    (PAGE, "| `small` | 1e-7 | `gone.cpp` | a | b | no | |\n", "tolerances.md:1 names gone.cpp, which is 0 files"),
-    (PAGE, "| `small` | 1e-7 | `a.cpp` | a | b | perhaps | |\n", "says 'perhaps' of the answer"),
-    (PAGE, "| `small` | 1e-7 | `a.cpp` | a | b | yes | |\n", "names no test, parameter or experiment"),
-    (PAGE, "| `small` | 1e-7 | `a.cpp` | a | b | yes | `tests/gone_test.cpp` |\n", "names tests/gone_test.cpp, which is no file"),
-    (PAGE, "| `small` | tiny | `a.cpp` | a | b | no | |\n", "has 1 names and the values [None]"),
+    ("framework/a/a.cpp", "constexpr double far = 1e9;\n", "framework/a/a.cpp:1 far = 1e9 has no comment"),
+    ("framework/a/a.cpp", "constexpr double far = 1e9;  // m\n", "framework/a/a.cpp:1 far = 1e9 has no comment"),
+    ("framework/a/a.cpp", "// Of nothing here.\nint f();\nconstexpr double far = 1e9;\n", "framework/a/a.cpp:3 far = 1e9 has no comment"),
+    ("framework/a/a.cpp", "constexpr double small = 1e-7, far = 1e9;\n", "far = 1e9 has no comment"),
+    ("framework/a/a.cpp", "constexpr double angle = 20 * std::numbers::pi / 180;\n", "angle = 20 * std::numbers::pi / 180 has no comment"),
+    ("framework/a/a.cpp", "constexpr std::array parts = {0.3, 0.6};\n", "parts = {0.3, 0.6} has no comment"),
+    ("framework/a/a.cpp", "constexpr double small = 1e-8;  // of an edge\n", "tolerances.md:3 says 1e-07 of small in a.cpp, which is 1e-08"),
+    ("framework/a/a.cpp", "constexpr double other = 2;  // of an edge\n", "tolerances.md:3 names small in a.cpp, of which there are 0"),
+    ("framework/a/a.hpp", "struct Options {\n  double least = 0.2;\n};\n", "framework/a/a.hpp:2 least = 0.2 has no comment"),
+    ("framework/a/a.hpp", "void f(double least = 0.2);\n", "framework/a/a.hpp:1 least = 0.2 has no comment"),
+    (PAGE, "| key | 1e-7 | `small` in `gone.cpp` |\n", "tolerances.md:1 names small in gone.cpp, of which there are 0"),
+    (PAGE, "| key | tiny | `small` in `a.cpp` |\n", "says None of small"),
     ("framework/a/b.cpp", "const char* text = \"x < 1e-7\";  // x > 40\ntemplate <class T> void g(std::array<T, 64> x);\n", None),
     ("framework/a/b.cpp", "double f(double a, double b) { return 0.5 * (a + b) - 2.0 * 1.0; }\n", None),
+    ("framework/a/b.cpp", "/// Of an edge: round-off.\nconstexpr double one = 1e-7;\nconstexpr double other = 3;\n", None),
     ("framework/a/b.hpp", 'struct Options {\n  double least = 0.2;\n};\n// spec.quantity("least", least, {});\n', None),
+    ("framework/a/b.hpp", "/// As long as no edge.\nvoid f(int a,\n       double least = 0.2);\n", None),
     ("framework/a/b.cpp", "spec.quantity(x, {.range = between(0.1, 1.55), .doc = \"\"});\n", None),
 )
 CLEAN = {
-    PAGE: "| name | value | file | what it decides | why this value | answer | test or parameter |\n|---|---|---|---|---|---|---|\n"
-          "| `small` | 1e-7 | `a.cpp` | a | b | no | |\n",
-    "framework/a/a.cpp": "constexpr double small = 1e-7;\n",
+    PAGE: "| key | default | in the sources |\n|---|---|---|\n| key | 1e-7 | `small` in `a.cpp` |\n",
+    "framework/a/a.cpp": "constexpr double small = 1e-7;  // of an edge: round-off\n",
 }
 
 

@@ -25,7 +25,7 @@ struct FluidReservoir {
 /// Whether fluid that enters at a point may be shared among two cells: in rock that conducts otherwise it might not be
 /// able to flow away.
 inline bool conduct_alike(const Tensor& one, const Tensor& other) {
-  constexpr double most = 2;
+  constexpr double most = 2;  // of permeabilities: fluid that enters less permeable rock would be trapped there
   const double ratio = other.trace() / one.trace();
   return ratio > 1 / most && ratio < most;
 }

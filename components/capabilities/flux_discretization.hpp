@@ -70,8 +70,8 @@ struct FluxOperators {
   SparseMatrix trace_cell;      ///< faces × cells; rows of inner faces are empty
   SparseMatrix trace_boundary;  ///< faces × faces; rows of inner faces are empty
   SparseMatrix trace_change;    ///< the same
-  /// faces × faces, diagonal: every node around which fluxes are not exact for linear pressures, in equal parts on its
-  /// faces; the sum is the number of these nodes (of such faces, with two-point fluxes)
+  /// faces × faces, diagonal: counts the nodes around which fluxes are not exact for linear pressures, each in equal
+  /// parts on its faces, so that the sum is their number (with two-point fluxes: of such faces)
   SparseMatrix blended_nodes;
   FacePressureOperators faces = {};
   /// What is added to the flux through every inner face, as approximated from its first and from its second cell: a

@@ -28,8 +28,8 @@ class TipSurroundings {
   virtual LameParameters stiffness(const Point& x) const = 0;
   /// 0 where one stiffness holds everywhere; otherwise a number that changes whenever that of some place has changed.
   virtual std::uint64_t stiffness_by_place() const { return 0; }
-  /// The faces between cells of different stiffness, but for walls of fractures, each by its nodes, m. They may change
-  /// with stiffness_by_place.
+  /// The faces between cells of different stiffness, except for walls of fractures, each by its nodes, m. They may
+  /// change with stiffness_by_place.
   using Border = std::array<Point, dimension>;
   virtual const std::vector<Border>& stiffness_borders() const {
     static const std::vector<Border> none_at_all;

@@ -29,13 +29,12 @@ struct Overshoots {
   int cell = none;     ///< where it is largest
 };
 
-/// Finds cells that overshoot. A cell overshoots if its potential is higher than before, higher than in all cells
-/// around it and higher than on its sides, although fluid enters it only through faces to these cells and sides: fluid
-/// that enters and is not stored must find a way down the potential. Undershoots are defined in the same way. Amounts
-/// that other parts add to the balance are found from what the cell stores and passes on. Overshoots below 1 % of the
-/// range of potentials do not count: the errors of a coarse mesh may be that large. Nothing counts where all potentials
-/// are one but for what solvers leave. Counts the cells of all processes.
-/// Collective.
+/// Finds cells that overshoot. A cell overshoots if its potential is higher than before, than in all cells around it
+/// and than on its sides, although fluid enters it only from these: fluid that enters and is not stored must find a way
+/// down the potential. Undershoots are defined in the same way. Amounts that other parts add to the balance are found
+/// from what the cell stores and passes on. Overshoots below 1 % of the range of potentials do not count: the errors of
+/// a coarse mesh may be that large. Nothing counts where all potentials are equal except for what solvers leave. Counts
+/// the cells of all processes. Collective.
 Overshoots find_overshoots(const FlowStep& step);
 
 }  // namespace sprekk

@@ -44,9 +44,9 @@ class RockWalls {
   /// Why the jumps of the cells at a tip have an error that does not vanish on finer meshes; empty where they are
   /// right.
   virtual std::string flaw_of_jumps() const { return {}; }
-  /// How the traction on a fracture cell closes the jump of this cell while the unknown displacements stay, m/Pa,
-  /// (normal, tangential) of each fracture cell; where walls are no more than unknown displacements, how it would if
-  /// the unknowns of the cell's walls moved alone. A scale, right on the fracture cells that the process owns.
+  /// By how much the traction on a fracture cell closes its jump while the unknown displacements stay, m/Pa, (normal,
+  /// tangential) of each fracture cell. Where the displacements of walls are unknowns: by how much, if only those of
+  /// this cell's walls moved. A scale, right on the fracture cells that the process owns.
   virtual Vector wall_compliance() {
     Vector compliance = Vector::Zero(wall_traction().size());
     for (const LinearExpression::Term& term : displacement_jump().terms)

@@ -40,15 +40,15 @@ struct Options;
 /// which hold for any c > 0 exactly when the conditions do (Alart and Curnier 1991; Hüeber, Stadler, Wohlmuth 2008),
 /// and divided by c (so that every residual is a length), are solved by a semismooth Newton method. f acts on the plus
 /// wall, [u] = u(minus) − u(plus), so friction makes f_t point along the slip: power −f·[u]' ≤ 0 is drawn from the
-/// walls. (Eq. 3 of the paper has the opposite sign.)
+/// walls. (The paper's Eq. 3 has the opposite sign.)
 ///
 /// With laws (components/contact/laws) the same equations hold for the gap
 ///   h = [u]_n − g(|[u]_t|) + c(−f_n),  g(s) = min(s, s_max) tan psi,
 /// with the closure c of walls under pressure, and for the strength that the walls have left at the path q of slip and
 /// opening: f_n = min(T(q), f_n + c_n h), b = C(q) − mu(q) min(0, f_n + c_n h).
 ///
-/// Where friction depends on slip rate and state (RateAndStateLaw), walls under shear always creep, and the return of
-/// the trial is the solution of
+/// Where friction depends on slip rate and state (RateAndStateLaw), walls under shear always creep. The trial then
+/// returns to the solution of
 ///   f_t = tau(|d|/dt, theta, −min(0, f_n + c_n h)) d/|d| with f_t + c_t d held at the trial,
 /// which is smooth where walls touch: there is no cone, and no state of sticking. `State` is then `slip` above V_0.
 ///
@@ -106,9 +106,9 @@ class FrictionalContact : public Component,
   void deactivate_conditions() override;
   /// Keeps cells that have slid back over their asperities in the state stick. Sliding back closes the fracture, which
   /// reduces its contact pressure and so its friction. Walls may then come to rest far away although they could also
-  /// have stayed where they were. The state in which they stick is the one that slip in small increments leads to:
-  /// stick is left where the bound is reached, and within given states of all cells tractions are linear in the load,
-  /// and so within the (convex) cone of friction all along the step if they are at both of its ends.
+  /// have stayed where they were. Small increments lead to the state in which they stick: as long as no cell changes
+  /// its state, tractions are linear in the load, so they are within the (convex) cone of friction all along the step
+  /// if they are at both of its ends.
   int keep_states() override;
   int release_violated() override;
   void release_kept() override { kept_.clear(); }

@@ -10,9 +10,9 @@ namespace sprekk::contact {
 /// iterate, is without springs, and its derivatives are with them.
 ///
 /// Springs are a compliance in series: f = Pi(m + c g) is the same as f = Pi(f + c' (g − (f − m)/c)) for every c' > 0.
-/// Newton's method takes this form, with c' the stiffness of the rock as without springs. In the first form, walls
-/// whose slip turns round would jump from slip in one direction to slip in the other: stiff springs lose their friction
-/// over a very short slip, and only over that slip do the walls stick.
+/// Newton's method takes this form, with c' the stiffness of the rock as without springs. In the first form walls stick
+/// only over the very short slip over which stiff springs lose their friction: walls whose slip turns round would jump
+/// from slip in one direction to slip in the other.
 enum class Multiplier { present, last, none };
 
 }  // namespace sprekk::contact

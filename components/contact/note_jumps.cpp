@@ -31,7 +31,7 @@ Slips largest_slips(const JumpsOfStep& step) {
 }
 
 void note_slips(Notes& notes, const std::string& name, const JumpsOfStep& step) {
-  constexpr double rounding = 1e-12;     // m
+  constexpr double rounding = 1e-12;     // m, far below any slip
   constexpr double springs_show = 0.05;  // of the slip
   const Slips largest = largest_slips(step);
   const bool is_of_springs = largest.of_springs > step.slip_at_start / 2;

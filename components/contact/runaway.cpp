@@ -39,7 +39,7 @@ double lost_by_opening(const Strength& strength) { return -strength.tension_by_p
 }  // namespace
 
 Softened FrictionalContact::softened() const {
-  constexpr double least = 1e-9;  // of the distance over which strength is lost
+  constexpr double least = 1e-9;  // of the distance over which strength is lost: far below any loss of strength
   Softened softened{{&traction_, &jump_, {}, {}}};
   if (!may_weaken()) return softened;
   const FreeValues free = free_values();

@@ -78,7 +78,7 @@ int FrictionalContact::piece(int i) const {
 /// Opens all cells by a very small amount. The amount makes no difference, since the conditions of open cells are
 /// linear.
 void FrictionalContact::deactivate_conditions() {
-  constexpr double opening = 1e-9;  // of the length of a cell
+  constexpr double opening = 1e-9;  // of the length of a cell: conditions of open walls are linear
   Vector traction = traction_.now(), jump = jump_.now();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (is_bonded(i) || !is_on_fracture_cell(i)) continue;

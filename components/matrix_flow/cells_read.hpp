@@ -5,9 +5,8 @@
 
 namespace sprekk::matrix_flow {
 
-/// For each node, ascending, the cells whose geometry and mobility its local problem may read: its own, and near a
-/// tip those to which the flow around the tip is fitted, and those of all nodes near the same tip
-/// (dissipative_share).
+/// For each node, ascending, the cells whose geometry and mobility its local problem may read: its own; near a tip also
+/// those to which the flow around the tip is fitted, and those of all nodes near the same tip (dissipative_share).
 Adjacency cells_read(const Mesh& mesh);
 
 }  // namespace sprekk::matrix_flow

@@ -78,10 +78,9 @@ struct Options {
 /// then, or has a nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for
 /// a constant density; what another density adds follows from Buoyancy. Properties may change with time, and are taken
 /// at the end of the step; a change of the storage S alone moves no fluid.
-///
 /// With Options::regions there is a flow in these regions only, and no flux through their boundary to other rock: the
-/// discretization has their cells alone (discretize_inside). The rows of all other cells are p − p_old = 0, times a
-/// storage, and the pressure there is no more than the number against which rock without fluid is loaded by nothing.
+/// discretization has their cells alone (discretize_inside). All other cells keep their initial pressure (rows p −
+/// p_old = 0, times a storage), so they exert no load.
 class MatrixFlow : public Component,
                    public PiecewiseSmooth,
                    public KeepsState,

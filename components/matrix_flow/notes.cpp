@@ -17,7 +17,7 @@ namespace sprekk::matrix_flow {
 namespace {
 
 constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest borehole has above it
-constexpr double rounding = 1e-6;           // of the initial pressure
+constexpr double rounding = 1e-6;           // of the initial pressure: far above round-off
 constexpr double on_it = 1e-6;              // of the size of a fracture cell: a well that is nearer lies on it
 
 /// Whether a point lies between the ends of a fracture cell, or inside of its edges, as seen along its normal. `away`:

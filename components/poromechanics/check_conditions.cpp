@@ -11,7 +11,7 @@
 namespace sprekk::poromechanics {
 namespace {
 
-/// Of squares of components of unit vectors, and of eigenvalues that are sums of such.
+/// Of squares of components of unit vectors, and of eigenvalues that are sums of such: round-off of an eigenvalue.
 constexpr double round_off = 1e-10;
 
 void check_sides(const Options& options, const Mesh& mesh) {

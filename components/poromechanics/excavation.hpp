@@ -19,10 +19,10 @@ struct ExcavatedRegion {
 };
 using ExcavatedRegions = std::map<std::string, ExcavatedRegion>;  ///< by the name of the region
 
-/// The state of the excavations in a step. A region of which `support` is below 1 is taken away: its stiffness falls to
-/// the part `left_stiffness`, its pore pressure no longer loads the rock, and of its initial stress and its weight the
-/// part `support` is left, so that what is around it is loaded by the rest (convergence and confinement, Panet and
-/// Guenot 1982).
+/// The state of the excavations in a step. A region is taken away when its `support` is below 1. Then its stiffness
+/// falls to the part `left_stiffness`, and its pore pressure no longer loads the rock. Of its initial stress and its
+/// weight the part `support` is left; the rest loads what is around it (convergence and confinement, Panet and Guenot
+/// 1982).
 class Excavation {
  public:
   /// Nothing is taken away before `evaluate`. Throws InputError for a region that the mesh does not have.

@@ -15,7 +15,7 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-constexpr double softest_rock = 1e3;  // Pa; a scene with softer rock is taken for dimensionless
+constexpr double softest_rock = 1e3;  // Pa; a scene with softer rock is treated as dimensionless
 
 }  // namespace
 

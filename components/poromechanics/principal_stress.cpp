@@ -9,7 +9,7 @@ namespace sprekk::poromechanics {
 namespace {
 
 constexpr double alike = 1e-11;      // radius of Mohr's circle, of the mean stress: a direction would be round-off
-constexpr double first_axis = 1e-6;  // two components that differ by less count as equal
+constexpr double first_axis = 1e-6;  // two components that differ by less count as equal: far above round-off
 
 /// With the sign of its largest component.
 Point with_sign(const Point& direction) {

@@ -131,7 +131,7 @@ void note_start_imbalance(Notes& notes, const Options& options, const Mesh& mesh
                           double time) {
   const bool has_weight = !options.rock_density.is_zero() && !options.gravity.is_zero();
   if (options.initial_stress.is_zero() && !has_weight) return;
-  constexpr double small = 1e-2;  // of the largest stress
+  constexpr double small = 1e-2;  // of the largest stress: rounded densities and depths
   const Start start(options, mesh, time);
   const Imbalance worst = start.largest();
   const double scale = start.largest_stress();

@@ -16,9 +16,11 @@ struct Imbalance {
   std::string because;       ///< what does not fit what, with figures
 };
 
-/// The largest imbalance of the data at a time (s): on sides, of what they give against the initial stress, in
-/// directions that may move; between regions, of their initial stresses; inside, of the force per volume b + div
-/// sigma_0, times the extent of the rock along it, over which its stress adds up.
+/// The largest imbalance of the data at a time (s):
+/// - on sides, what they give less the initial stress, in directions that may move;
+/// - between regions, the difference of their initial stresses;
+/// - inside, the force per volume b + div sigma_0, times the extent of the rock along it, over which its stress adds
+/// up.
 Imbalance start_imbalance(const Options& options, const Mesh& mesh, double time);
 
 /// Notes rock whose stress or weight is out of balance at the start by more than a hundredth of the largest stress.

@@ -12,7 +12,7 @@
 namespace sprekk::wells {
 namespace {
 
-constexpr double rounding = 1e-6;  // of the pressure at the start
+constexpr double rounding = 1e-6;  // of the pressure at the start: far above round-off
 
 std::vector<std::string> names_of(const Options& options, const Origin& origin) {
   if (options.wells.empty())

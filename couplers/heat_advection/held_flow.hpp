@@ -26,9 +26,9 @@ struct CarryingFlow {
 
 /// Rates of a flow that is solved together with the heat are the present ones. While the flow is held, they are those
 /// with which it was solved for the time of the step (FlowCourse), or, where it was not yet, those of its last solve.
-/// Evaluated with the data of a new step (a viscosity that follows the temperature, a prescribed pressure that has
-/// changed), the same pressures would give fluxes that do not balance: cells would gain or lose many times the fluid
-/// that they hold.
+/// They are not found anew from the held pressures: with the data of a new step (another viscosity, another prescribed
+/// pressure) these would give fluxes that do not balance, and cells would gain or lose many times the fluid that they
+/// hold.
 class HeldFlow {
  public:
   HeldFlow(const CouplerContext& context, const CarryingFlow& flow);

@@ -8,7 +8,7 @@ namespace sprekk::couplers {
 namespace {
 
 /// Part of the distances of cells: values of cells that lie within this along a direction do not determine the gradient
-/// along it.
+/// along it. Round-off of a moment.
 constexpr double round_off = 1e-12;
 
 }  // namespace

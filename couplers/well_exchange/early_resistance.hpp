@@ -9,7 +9,7 @@
 
 namespace sprekk::couplers {
 
-/// The number of terms of a resistance that changes with time.
+/// The number of terms of a resistance that changes with time: the scales are a factor of 4 apart.
 constexpr int early_terms = 12;
 
 /// The difference of the pressures of a well and of the cells at its point after a rate q has begun at the time 0:

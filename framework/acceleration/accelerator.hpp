@@ -15,19 +15,19 @@ class Accelerator {
   virtual ~Accelerator() = default;
   /// An iteration begins. `scale`: what its values have been divided by, one an entry; positive.
   virtual void begin(const Vector& scale) = 0;
-  /// The next iterate from x and G(x), both of the size of the scale.
+  /// The next iterate from x and G(x), both divided by the scale.
   virtual Vector next(const Vector& x, const Vector& image) = 0;
   /// Called between passes where cells begin to stick, slip or open: earlier passes of this iteration tell nothing of
   /// the next ones, which are another piece of a piecewise smooth map.
   virtual void forget() = 0;
 
   /// Called when the time step has been accepted: what the last iteration has learned may be kept for later ones. What
-  /// is kept belongs to no scale.
+  /// is kept must not depend on the scale, which changes from one iteration to the next.
   virtual void accepted() {}
   /// Called when the time step is taken back: what iterations since the last acceptance have learned is forgotten.
   virtual void rewound() {}
   /// Called when an iteration has not converged: forgets what former time steps have taught, and tells whether there
-  /// was anything. Steps of another length, or with walls in other states, may have taught what leads away.
+  /// was anything. What steps of another length, or with walls in other states, have taught may lead away.
   virtual bool forget_steps() { return false; }
   /// For checkpoints: what later time steps use of former ones, as named values. `restore` ignores values of another
   /// shape, and forgets what there was.

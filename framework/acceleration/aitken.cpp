@@ -34,7 +34,7 @@ class Aitken : public Accelerator {
   Vector last_;  ///< residual of the pass before
 };
 
-constexpr double smallest_factor = 1e-3;
+constexpr double smallest_factor = 1e-3;  // least size of the factor
 
 struct AitkenOptions {
   double first = 0.5;

@@ -38,8 +38,8 @@ class AcceleratorRegistry {
 
 /// Registers an accelerator when it is constructed. Options is a struct with `Spec spec()`, whose targets are its own
 /// members and whose text says what the accelerator does, and `std::unique_ptr<Accelerator> build() const`. Its
-/// parameters are a section; if it has `void declare(Spec&, const std::string& name)` and `bool is_chosen() const`, its
-/// key is what these say.
+/// parameters are a section. An accelerator whose key is no section declares the key itself, by `void declare(Spec&,
+/// const std::string& name)` and `bool is_chosen() const`.
 template <class Options>
 struct RegisterAccelerator {
   explicit RegisterAccelerator(const std::string& name) {

@@ -19,7 +19,7 @@ void SecantFilter::add_to(Spec& spec) {
 }
 
 FilteredSecants filtered(const Secants& secants, const SecantFilter& filter) {
-  constexpr double round_off = 16 * std::numeric_limits<double>::epsilon();
+  constexpr double round_off = 16 * std::numeric_limits<double>::epsilon();  // of a difference: newer ones span it
   const int count = static_cast<int>(secants.of_residual.size());
   const Eigen::Index size = count > 0 ? secants.of_residual.front().size() : 0;
   double square = 0;

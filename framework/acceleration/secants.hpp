@@ -14,7 +14,7 @@ namespace sprekk {
 /// Uekermann and Mehl, Comput. Struct. 171 (2016) 9).
 struct SecantFilter {
   std::string kind = "qr2";  ///< "none", "qr1", "qr2"
-  double limit = 1e-6;
+  double limit = 1e-6;       ///< of a difference, what newer ones must leave for it to count
   void add_to(Spec& spec);
 };
 

@@ -22,8 +22,8 @@ namespace sprekk {
 /// together (docs/numerics/constant_modes.md).
 class BalanceRows {
  public:
-  /// Part of the round-off that Newton's method grants (64 last digits) which the change of a field in a step has: a
-  /// difference of two values next to one another is exact, but for the last digit of each.
+  /// The part of the round-off that Newton's method allows (64 last digits) for the change of a field in a step: a
+  /// difference of two values next to one another is exact, except for the last digit of each.
   static constexpr double round_off_of_change = 1.0 / 32;
 
   /// Declares the rows of a field as balances of a quantity. To be made once, by the owner of the field, before any

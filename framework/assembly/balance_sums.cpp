@@ -64,7 +64,7 @@ double held_through_interfaces(const Assembly& assembly, const Balances::Quantit
 }  // namespace
 
 bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool also_coupled) {
-  constexpr double weak = 1e-6;
+  constexpr double weak = 1e-6;  // storage over exchange: below, rows are summed
   SPREKK_EXPECT(!summed.unknowns.empty(), summed.name);
   for (const Assembly::Fixed& fixed : assembly.fixed())
     if (summed.has(fixed.unknown)) return false;
@@ -126,7 +126,7 @@ SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
     total.value += values[k];
     total.size += std::abs(values[k]);
   }
-  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of summed terms
   SumRow sum;
   for (const auto& [column, total] : totals) {
     if (std::abs(total.value) <= round_off * total.size) continue;  // terms that cancel give no entry

@@ -5,8 +5,8 @@ namespace sprekk {
 
 class Assembly;
 
-/// A part whose terms of balances are changes since the amounts that were counted last. What the passes of an iteration
-/// leave of a balance, by the little that they do not converge, need not be lost: it is counted in the next step.
+/// A part that measures its balances from the amounts that were counted last. What remains of a balance after the last
+/// pass of an iteration is then not lost, but carried into the next step.
 class CountsLater {
  public:
   virtual ~CountsLater() = default;

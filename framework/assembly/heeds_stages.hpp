@@ -9,9 +9,9 @@ namespace sprekk {
 class HeedsStages {
  public:
   virtual ~HeedsStages() = default;
-  /// Whether the steps from now on are stages. Where stored amounts depend on the path of the unknowns within a step,
-  /// the path is none of the solution in a stage, since it may start from extrapolated values: there the part stores
-  /// changes of its unknowns times coefficients at the end.
+  /// Whether the steps from now on are stages. A stage may start from extrapolated values, so the path of the unknowns
+  /// within it is not that of the solution. A part whose stored amounts depend on this path then stores changes of its
+  /// unknowns times coefficients at the end.
   virtual void take_stages(bool /*are_stages*/) {}
   /// What one stage costs in accuracy, as the rest of a sentence that begins with "with backward_euler", where two
   /// stages are recommended; empty where one stage costs too little for a note.

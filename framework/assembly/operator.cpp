@@ -16,7 +16,7 @@ namespace {
 /// part of the rows.
 [[maybe_unused]] bool columns_add_up_alike(const SparseMatrix& a, const SparseMatrix& b) {
   if (parallel::size() > 1) return true;
-  constexpr double round_off = 1e-9;
+  constexpr double round_off = 1e-9;  // what an assertion allows, far above rounding
   Vector difference = Vector::Zero(a.cols()), size = Vector::Zero(a.cols());
   for (const auto& [matrix, sign] : {std::pair(&a, 1.0), std::pair(&b, -1.0)})
     for (int k = 0; k < matrix->nonZeros(); ++k) {

@@ -7,8 +7,8 @@
 
 namespace sprekk {
 
-/// A part with terms that are held at what they are before the start while one of its components is settled alone, so
-/// that the state would move from the first step on.
+/// A part whose components come to rest together only: while one of them is settled alone, terms of the part would keep
+/// their values of before the start, and the state would move from the first step on.
 class RestsTogether {
  public:
   virtual ~RestsTogether() = default;

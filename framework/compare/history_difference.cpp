@@ -11,7 +11,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double same_time = 1e-9;  // relative difference of two times
+constexpr double same_time = 1e-9;  // relative difference of two times: as for steps
 
 /// Whether a column describes the time steps, not results.
 bool tells_of_steps(const std::string& column) {

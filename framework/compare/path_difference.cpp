@@ -12,7 +12,7 @@ namespace {
 // that is equally near to two segments of the other line.
 constexpr int points_between = 7;
 constexpr double round_off = 1e-13;  // of a distance, over the length of the lines
-constexpr double at_the_end = 1e-9;  // of the length of a segment
+constexpr double at_the_end = 1e-9;  // of the length of a segment: far above round-off of points
 
 double apart(const Position& a, const Position& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 

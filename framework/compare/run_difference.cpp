@@ -16,7 +16,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double same_time = 1e-9;  // relative difference of two times
+constexpr double same_time = 1e-9;  // relative difference of two times: as for steps
 
 const Snapshot* written_at(const std::vector<Snapshot>& all, double time) {
   for (const Snapshot& snapshot : all)

@@ -10,7 +10,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double hardly_varies = 1e-6;  // range over size
+constexpr double hardly_varies = 1e-6;  // range over size: ten digits above round-off
 
 }  // namespace
 

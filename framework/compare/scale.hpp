@@ -18,8 +18,8 @@ class ValueRange {
   bool is_empty_ = true;
 };
 
-/// Against what values are measured whose range has this width: the width, or their size where the width is no more
-/// than round-off of it.
+/// The scale for values with a range of this width: the width, or, where that is mere round-off of the values, their
+/// size.
 double scale_of(double width, double size);
 
 /// What columns (or arrays) "quantity[unit]" have in common that are measured against one scale: the components of a

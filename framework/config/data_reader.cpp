@@ -215,6 +215,7 @@ namespace {
 /// The bound that a value of `data` has left by round-off only, if there is one. What round-off is follows from the
 /// bounds, and from the values of `data` at other places and times.
 std::optional<double> left_by_roundoff(double value, const Range& range, const Data& data, const Place& place) {
+  // Of the largest value of a datum, thousands of roundings: such a value is the bound.
   constexpr double roundoff = 1e-12;
   const bool is_below = value <= range.low;
   const double bound = is_below ? range.low : range.high;

@@ -46,7 +46,7 @@ const std::array<NamedDimension, 27> named_dimensions = {{
 }  // namespace
 
 bool Dimension::operator==(const Dimension& other) const {
-  constexpr double rounding = 1e-9;  // powers are simple fractions, maybe computed
+  constexpr double rounding = 1e-9;  // powers are simple fractions, maybe computed: round-off of a few operations
   for (std::size_t i = 0; i < exponents.size(); ++i) {
     if (!(std::abs(exponents[i] - other.exponents[i]) < rounding)) return false;
   }

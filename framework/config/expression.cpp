@@ -159,9 +159,9 @@ Data parse_expression(const std::string& text, double scale, const Origin& where
 namespace {
 
 /// Places and times at which dimensions are tested: none that a condition in an expression is likely to name.
-constexpr std::array times = {0.7318, 917.3, 5.2397e4, 8.7131e5, 1.1873e8};
+constexpr std::array times = {0.7318, 917.3, 5.2397e4, 8.7131e5, 1.1873e8};  // s, from seconds to years
 std::vector<Place> test_places() {
-  constexpr std::array lengths = {0.3719, -17.193, 1193.7};
+  constexpr std::array lengths = {0.3719, -17.193, 1193.7};  // m, on both sides of 0
   std::vector<Place> places;
   for (const double t : times)
     for (const double x : lengths) {
@@ -181,7 +181,7 @@ struct Resized {
   /// Whether its values change as those of a quantity with this dimension, with places and times as plain numbers or
   /// with units.
   bool has_dimension(const Dimension& dimension, bool has_length, bool has_time) const {
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-9;  // powers of units after a few operations
     int decade = 9;  // of the state: from large values to small ones, in SI units
     for (const Place& place : test_places()) {
       std::vector<double> values, resized_values;

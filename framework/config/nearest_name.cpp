@@ -8,7 +8,7 @@
 namespace sprekk {
 namespace {
 
-constexpr std::size_t longest_word = 64;
+constexpr std::size_t longest_word = 64;  // characters: no name is longer
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -46,7 +46,7 @@ std::string only_name_that_begins_with(const std::string& word, const std::vecto
 /// The names of which the word is a part, or which are a part of it: "water_density" for "density". None if there are
 /// many.
 std::vector<std::string> names_with_part(const std::string& word, const std::vector<std::string>& names) {
-  constexpr std::size_t shortest = 3, most = 3;
+  constexpr std::size_t shortest = 3, most = 3;  // letters: shorter parts are in everything
   const auto has_part = [](const std::string& whole, const std::string& part) {
     const auto ends = [&whole](std::size_t at) { return at == whole.size() || whole[at] == '_' || whole[at] == '/'; };
     for (std::size_t at = whole.find(part); at != std::string::npos; at = whole.find(part, at + 1))

@@ -5,7 +5,7 @@
 
 namespace sprekk {
 
-inline constexpr std::size_t largest_text_file = std::size_t{64} << 20U;  ///< bytes
+inline constexpr std::size_t largest_text_file = std::size_t{64} << 20U;  ///< bytes: no scene or table is larger
 
 /// The contents of the UTF-8 file at `path`, called `name` in messages. Throws InputError for a file that cannot be
 /// read, is larger than `largest_text_file`, or is binary.

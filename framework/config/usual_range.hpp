@@ -21,9 +21,9 @@ struct UsualRange {
   double distance(double value) const { return contains(value) ? 0 : std::max(low - value, value - high); }
 };
 
-/// Declares the usual range of a parameter that the spec has. A parameter that it has not is a std::logic_error.
+/// Declares the usual range of a parameter that the spec has. Throws std::logic_error for a parameter that it has not.
 void usually(const Spec& spec, const std::string& parameter, const UsualRange& range);
-/// The same for maps of which a condition holds: the range of what is meant by the parameter there.
+/// The same for maps that fulfil a condition: the usual range of what the parameter means there.
 void usually(const Spec& spec, const std::string& parameter, const UsualRange& range,
              std::function<bool(const Node& map)> condition);
 /// The usual range of a parameter, or nullptr.

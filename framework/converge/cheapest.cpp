@@ -6,9 +6,9 @@
 namespace sprekk {
 namespace {
 
-// Factors that are tried: 2^(k/2) of the middle level.
+// Factors that are tried: 2^(k/2) of the middle level. Beyond the coarsest level nothing is known.
 constexpr int coarsest_step = 2, finest_step = -12;
-constexpr double least_power = 0.25, most_power = 3;  // of the cost
+constexpr double least_power = 0.25, most_power = 3;  // of the cost: measured seconds of short runs are noise
 
 }  // namespace
 

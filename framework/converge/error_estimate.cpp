@@ -7,11 +7,11 @@
 namespace sprekk {
 namespace {
 
-constexpr double fine_level = 0.5;
-constexpr double least_order = 0.5, most_order = 2;
-constexpr double safety = 1.5;      // factor on an extrapolation with an observed order
-constexpr double cancelled = 0.25;  // share of the errors that counts where they cancel one another
-constexpr double round_off = 1e-9;  // of a value: the error of the solvers
+constexpr double fine_level = 0.5;  // of the middle one: halving is usual for Richardson's extrapolation
+constexpr double least_order = 0.5, most_order = 2;  // that are trusted: methods here are of second order at most
+constexpr double safety = 1.5;                       // factor on an extrapolation with an observed order
+constexpr double cancelled = 0.25;                   // share of the errors that counts where they cancel one another
+constexpr double round_off = 1e-9;                   // of a value: the error of the solvers
 
 }  // namespace
 

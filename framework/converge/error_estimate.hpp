@@ -15,11 +15,11 @@ struct ParameterError {
   double correction = 0;           ///< what extrapolation adds to the value of the fine level; 0 if not regular
   double order = 0;                ///< observed, within 1/2 and 2; 1 where it is not regular
   bool is_regular = true;          ///< false where the differences do not shrink, or change their sign
-  bool is_zero = false;            ///< the value does not depend on the parameter but for round-off
+  bool is_zero = false;            ///< the value does not depend on the parameter except for round-off
   double at(double factor) const;  ///< the error at this factor of the middle level
 };
 
-/// From the values on the levels 2, 1 and 1/2. `scale`: a size of the value, of which round-off is told.
+/// From the values on the levels 2, 1 and 1/2. `scale`: a size of the value, by which round-off is recognized.
 ParameterError parameter_error(double coarse, double middle, double fine, double scale);
 
 /// The error of a value that depends on several parameters.

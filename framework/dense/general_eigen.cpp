@@ -9,7 +9,7 @@ namespace sprekk {
 
 std::vector<RealEigenpair> real_eigenpairs(const Eigen::MatrixXd& matrix) {
   SPREKK_EXPECT(matrix.rows() == matrix.cols(), matrix.rows(), matrix.cols());
-  constexpr double round_off = 1e-10;  // of the eigenvalue
+  constexpr double round_off = 1e-10;  // of the eigenvalue: round-off of the decomposition
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
   std::vector<RealEigenpair> pairs;
   for (Eigen::Index k = 0; k < matrix.rows(); ++k) {

@@ -12,7 +12,7 @@ struct RealEigenpair {
   double value;
   Eigen::VectorXd vector;
 };
-/// All that are real but for round-off, in no order.
+/// All that are real except for round-off, in no order.
 std::vector<RealEigenpair> real_eigenpairs(const Eigen::MatrixXd& matrix);
 
 }  // namespace sprekk

@@ -10,11 +10,10 @@ namespace sprekk {
 
 /// Cells and weights, which add up to 1, of the value at a point `x` of a fracture; `cell` holds it. Across a ridge
 /// where fractures touch or cross nothing is interpolated.
-///
-/// In a plane it goes over, linearly, between the centres of two cells, from the polynomial of second degree through
-/// three centres around the one to that around the other: continuous along the fracture, exact for quadratic values,
-/// and off by O(h^3). Distances are along the fracture, which may have corners. Next to a junction, and to an end, the
-/// polynomial is linear, and beyond the last centre it is the value of the cell.
+/// In a plane each centre has the polynomial of second degree through three centres around it. Between two centres the
+/// value goes over linearly from one polynomial to the other: it is continuous along the fracture, exact for quadratic
+/// values, and otherwise off by O(h^3). Distances are along the fracture, which may have corners. Next to a junction,
+/// and to an end, the polynomial is linear, and beyond the last centre it is the value of the cell.
 ///
 /// In space it is the linear function that fits the cell and its neighbours best: exact for linear values, off by
 /// O(h^2). Where these do not tell its slope it is the value of the cell.

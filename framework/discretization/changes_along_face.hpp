@@ -9,10 +9,10 @@
 
 namespace sprekk {
 
-/// One number for each direction along a face: in a plane from its first to its second node; in space on a triangle
-/// from its first node to its second and to its third, on a quadrilateral from the middle of the edge between its
-/// fourth and first node to that of the opposite edge, and from the middle of the edge between the first and the second
-/// node to that of the opposite one.
+/// One number for each direction along a face:
+/// - in a plane from its first to its second node;
+/// - in space on a triangle from its first node to the second, and to the third;
+/// - on a quadrilateral between the middles of opposite edges: from that of edge (4, 1), and from that of edge (1, 2).
 inline constexpr int directions_of_faces = dimension - 1;
 using AlongFace = std::array<double, directions_of_faces>;
 

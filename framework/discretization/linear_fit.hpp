@@ -9,9 +9,10 @@
 
 namespace sprekk {
 
-/// Cells and weights such that sum of weight · value is the value at `x` of the linear function that fits the values of
-/// the cells that share a node with the cell at `x`, in the sense of least squares: exact for linear fields, and a
-/// point source spread with these weights has the total and the position of the point. Empty outside of the mesh.
+/// Cells and weights such that sum of weight · value is a value at `x`: that of the linear function that fits best
+/// (least squares) the values of the cells that share a node with the cell at `x`. It is exact for linear fields, and a
+/// point source that is spread with these weights has the total and the position of the point. Empty outside of the
+/// mesh.
 ///
 /// Only cells of the same region as the cell at `x` count, and of these only cells that is_like(cell at x, cell)
 /// accepts: a field may have a kink where the rock changes, and a well must not feed the rock on the other side. With

@@ -15,9 +15,10 @@ namespace sprekk {
 namespace {
 
 constexpr int coefficients = (dimension + 1) * (dimension + 2) / 2;
-// Below this share of a monomial that the ones before it do not make, cells do not tell it apart from them.
+// A monomial is left out where, at the cells, less than this share of it is independent of those before it.
 constexpr double independent = 0.1;
-// Of half the length of a fracture cell: a line that passes its end at less crosses it.
+// Tolerance, in half lengths of a fracture cell, for a line that crosses it at its end: lines between centres of
+// rectangles pass through nodes.
 constexpr double grazes = 1e-6;
 
 /// Whether the line from one point to another crosses a fracture cell.
@@ -56,7 +57,7 @@ std::set<int> around_node(const Mesh& mesh, int home, int node) {
   std::set<int> cells = {home};
   for (const int cell : with_neighbours(mesh, home, cells))
     if (std::ranges::count(mesh.cell_nodes[cell], node) > 0) cells.insert(cell);
-  constexpr int rings = 2;
+  constexpr int rings = 2;  // of neighbours, where the cells around the corner are too few for a fit
   for (int ring = 0; ring < rings && cells.size() < 2 * coefficients; ++ring)
     cells = with_neighbours(mesh, home, cells);
   return cells;
@@ -83,7 +84,7 @@ Tensor along_and_across(const std::vector<Point>& centres) {
   return principal_axes(spread).axes.rowwise().reverse();
 }
 
-/// The columns that columns before them do not make up, in their order.
+/// The columns that are independent of those before them, in their order.
 Eigen::MatrixXd independent_columns(const Eigen::MatrixXd& all) {
   Eigen::MatrixXd kept(all.rows(), 0);
   for (Eigen::Index k = 0; k < all.cols(); ++k) {

@@ -23,7 +23,7 @@ inline double share_at_node(const Mesh& mesh, int face, int node) {
 /// Where the values of both sides of a face agree near one of its nodes: at centre + part · way. With the arms from the
 /// centre of a cell to these points dual to its area vectors at the node, fluxes are symmetric in drops of the
 /// potential, and positive, for any tensor (Klausen, Radu and Eigestad, Int. J. Numer. Meth. Fluids 58 (2008) 1327).
-/// This holds for all cells named below but for `other`; the mean of the points, by the shares, is the centre.
+/// This holds for all cells named below except for `other`; the mean of the points, by the shares, is the centre.
 ///   edge of a triangle, in a plane: a third of the way to the node;
 ///   face of a tetrahedron: a quarter of the way to the node;
 ///   quadrilateral of a wedge with parallel edges: a third of the way to the edge between the wedge's triangles;

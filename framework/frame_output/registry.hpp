@@ -41,8 +41,8 @@ class FrameOutputRegistry {
 
 /// Registers an output when it is constructed. Options is a struct with `Spec spec()`, whose targets are its own
 /// members and whose text says what is written, and `std::unique_ptr<FrameOutput> build(const OutputPlace&) const`; it
-/// may have `void check(const Frame& start) const`. Its parameters are a section; if it has `void declare(Spec&, const
-/// std::string& name)` and `bool is_chosen() const`, its key is what these say.
+/// may have `void check(const Frame& start) const`. Its parameters are a section. An output whose key is no section
+/// declares the key itself, by `void declare(Spec&, const std::string& name)` and `bool is_chosen() const`.
 template <class Options>
 struct RegisterFrameOutput {
   explicit RegisterFrameOutput(const std::string& name) {

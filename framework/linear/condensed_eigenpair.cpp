@@ -25,7 +25,7 @@ bool apply_inverse(LinearSolver& solver, const std::vector<int>& rows, const Con
 
 /// A vector that is orthogonal to no smooth one, the same in each run.
 Vector first_vector(Eigen::Index size) {
-  constexpr double golden_ratio = 0.6180339887498949;
+  constexpr double golden_ratio = 0.6180339887498949;  // its multiples repeat nowhere
   Vector v(size);
   for (Eigen::Index i = 0; i < size; ++i) {
     const double turns = static_cast<double>(i + 1) * golden_ratio;
@@ -43,7 +43,7 @@ class Arnoldi {
                   unknowns.rows.size(), unknowns.columns.size(), n_);
     for (Eigen::Index i = 0; i < n_; ++i)
       SPREKK_EXPECT(is_index(unknowns.rows[i], size) && is_index(unknowns.columns[i], size), unknowns.rows[i], size);
-    constexpr int most = 40;  // vectors
+    constexpr int most = 40;  // vectors of Arnoldi's method
     const Eigen::Index vectors = std::min<Eigen::Index>(n_, most);
     basis_.resize(n_, vectors);
     hessenberg_ = Eigen::MatrixXd::Zero(vectors, vectors);
@@ -55,7 +55,7 @@ class Arnoldi {
 
   /// One vector more. False where the solver fails.
   bool extend() {
-    constexpr double invariant = 1e-12;  // what is left of a vector in an invariant subspace
+    constexpr double invariant = 1e-12;  // what is left of a vector in an invariant subspace: some thousand roundings
     if (used_ > 0) {
       hessenberg_(used_, used_ - 1) = left_;
       basis_.col(used_) = next_ / left_;
@@ -110,7 +110,7 @@ std::optional<CondensedEigenpair> negative_eigenpair(LinearSolver& solver, const
 double smallest_if_positive(LinearSolver& solver, const std::vector<int>& rows, int size,
                             const CondensedUnknowns& unknowns) {
   constexpr int least = 16;      // vectors: with them a loss shows beside motions that are a hundred times as soft
-  constexpr double known = 0.1;  // of the eigenvalue: its residual
+  constexpr double known = 0.1;  // of the eigenvalue: its residual; a bound from below takes it off
   Arnoldi arnoldi(solver, rows, size, unknowns);
   for (int used = 1; !arnoldi.is_at_end(); ++used) {
     if (!arnoldi.extend()) return 0;

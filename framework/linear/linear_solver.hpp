@@ -135,9 +135,9 @@ class LinearSolver {
 /// Parameters of the linear solver: those of a scene's `solver:`, and what the schedule knows.
 struct LinearOptions {
   std::string type = "auto";  ///< auto, umfpack, mumps, belos
-  double tolerance = 1e-10;   ///< relative residual of iterative methods
-  int max_iterations = 500;
-  bool condense = true;  ///< direct solvers: factorize the bulk once, and then only its Schur complement
+  double tolerance = 1e-10;   ///< relative residual of iterative methods: as the direct solvers' `acceptable`
+  int max_iterations = 500;   ///< five restarts of the longest kind
+  bool condense = true;       ///< direct solvers: factorize the bulk once, and then only its Schur complement
   /// Whether the bulk changes after a few systems, as where the mesh changes with the steps. Then a quick factorization
   /// counts for more than quick back-solves.
   bool bulk_changes_often = false;

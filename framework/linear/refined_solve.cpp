@@ -41,7 +41,8 @@ double componentwise_backward_error(const SparseMatrix& a, const Vector& y, cons
 
 LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scaled, const Vector& b_rows,
                            const std::function<void(Vector&)>& apply_inverse, Vector& x) {
-  constexpr int refinements = 3;
+  constexpr int refinements = 3;  // steps, at most
+  // Some hundred roundings; six digits above round-off; no solution at all.
   constexpr double accurate = 1e-13, acceptable = 1e-10, useless = 0.3;
   constexpr double hardly_better = 0.5;  // of the error before: a smaller gain ends the refinement
   SPREKK_EXPECT(b_rows.size() == scaled.matrix.rows(), b_rows.size(), scaled.matrix.rows());

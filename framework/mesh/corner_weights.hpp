@@ -14,8 +14,8 @@ namespace sprekk {
 /// Finite Element Basis).
 std::vector<std::pair<int, double>> corner_weights(const Mesh& mesh, int cell, const Point& x);
 
-/// The cell among `cells` that holds x or is nearest to holding it: that with the largest of its smallest distances to
-/// the lines of faces (negative outside); the first of equal ones. `cells` are not empty.
+/// The cell among `cells` that contains x, or comes nearest to it: the one whose smallest distance from x to the lines
+/// of its faces (negative outside) is largest; the first of equal ones. `cells` are not empty.
 int cell_holding(const Mesh& mesh, const std::vector<int>& cells, const Point& x);
 
 }  // namespace sprekk

@@ -22,7 +22,7 @@ struct FaceGeometry {
   Point normal;    ///< unit, out of the cell that has the face in this order
 };
 
-/// Of a cell whose nodes have the order of its shape. A face of four nodes is taken for the four triangles between its
+/// Of a cell whose nodes have the order of its shape. A face of four nodes is treated as the four triangles between its
 /// edges and the mean of its nodes.
 Measured cell_geometry(const std::vector<Point>& nodes, const CellNodes& cell);
 FaceGeometry face_geometry(const std::vector<Point>& nodes, const FaceNodes& face);

@@ -30,7 +30,7 @@ std::uint64_t place_on_curve(std::uint32_t x, std::uint32_t y, int bits) {
 
 std::vector<int> order_in_space(const std::vector<Point>& points) {
   if (points.empty()) return {};
-  constexpr int bits = 16;
+  constexpr int bits = 16;  // 65,536 places along each axis
   Point low = points[0], high = points[0];
   for (const Point& point : points) {
     low = low.cwiseMin(point);

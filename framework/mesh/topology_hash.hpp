@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// A sum over numbers in their order (FNV-1a, 64 bits): two that differ have different sums, but for an accident.
+/// A sum over numbers in their order (FNV-1a, 64 bits): two that differ have different sums, except by accident.
 class TopologyHash {
  public:
   template <class Number>

@@ -120,7 +120,7 @@ double far_size(const Geometry& geometry, const MeshOptions& options);
 /// The edge length that the options ask for at a fracture, m.
 double size_at(const FractureGeometry& fracture, const Geometry& geometry, const MeshOptions& options);
 
-/// The shortest edge length that the options ask for, m, but for gaps.
+/// The shortest edge length that the options ask for, m, except for gaps.
 double shortest_size(const Geometry& geometry, const MeshOptions& options);
 
 /// Lines and points that are nearer to one another are joined, m: as the geometry says, by default a hundredth of the

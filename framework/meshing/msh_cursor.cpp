@@ -99,7 +99,7 @@ double MshCursor::real(const char* what) {
     text = word(what);
     begin = at_ - text.size();
     const std::errc error = parse(text, value);
-    // A number below the range of double is taken for zero.
+    // A number below the range of double is treated as zero.
     if (error == std::errc::result_out_of_range) value = std::strtod(text.c_str(), nullptr);
     if (error == std::errc::invalid_argument) {
       fail_at(begin, sprekk::quoted(text) + " stands where " + what + " is expected");

@@ -22,8 +22,8 @@
 namespace sprekk {
 namespace {
 
-/// m. Meshes that are farther from the origin, or smaller, are taken for an error of the user; squares of their lengths
-/// might overflow or vanish.
+/// m. Meshes that are farther from the origin, or smaller, are treated as an error of the user; squares of their
+/// lengths might overflow or vanish.
 constexpr double farthest = 1e12, smallest_extent = 1e-12;
 
 class MshReader {

@@ -16,7 +16,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double most_cells = 20e6;
+constexpr double most_cells = 20e6;  // no memory holds more
 
 std::string number(double value) {
   std::ostringstream out;

@@ -32,7 +32,7 @@ std::string own_name() {
 }  // namespace
 
 RunLock::RunLock(const std::filesystem::path& folder) : file_(folder / file_name) {
-  constexpr int most_attempts = 1000;
+  constexpr int most_attempts = 1000;  // a run that ends between open and flock removes the file
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor_ < 0)

@@ -19,7 +19,7 @@ namespace {
 /// rad, a usual smallest angle of cells that are made anew. It stands for the angle before any move, so that the limit
 /// for moved cells is the same however often they move.
 constexpr double angle_of_new_cells = 0.56;
-constexpr double least_share = 0.1;  ///< of a divided cell: the smallest part
+constexpr double least_share = 0.1;  ///< of a divided cell: the smallest part; shorter ones make slivers
 
 /// The last cell of a fracture, and its ends.
 struct LastCell {

@@ -8,14 +8,14 @@
 
 namespace sprekk {
 
-/// The least distance between a path and anything else, in edge lengths.
+/// The least distance between a path and anything else, in edge lengths: a cell must fit in between.
 inline constexpr double least_gap = 0.5;
 /// An end nearer than this to the outer boundary, in edge lengths, is moved onto the boundary.
 inline constexpr double boundary_snap = 0.01;
 /// An end nearer than this to a ridge of another fracture, in edge lengths, is moved to that point.
 inline constexpr double joint_snap = 0.01;
 /// A path that meets the outer boundary or another fracture at less than this angle passes too near to it, rad (15
-/// degrees).
+/// degrees): the cells between both have this angle.
 inline constexpr double least_incidence = 0.2617993877991494;
 
 /// Throws ExtensionError for the first extension that cannot be made with edges of this size (m). Near a fracture or
@@ -27,8 +27,8 @@ std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<
                                             double size);
 
 /// Whether a straight step of a path, from `from` to `to`, comes so near to the outer boundary or to another fracture
-/// that check_extensions would soon refuse the path: nearer than 1.5 times the least gap, and nearer than the beginning
-/// of the path by more than half of what check_extensions allows. `beginning`: the old tip; `size` (m) as in
+/// that check_extensions would soon refuse the path. That is nearer than 1.5 times the least gap, and nearer than the
+/// beginning of the path by more than half of what check_extensions allows. `beginning`: the old tip; `size` (m) as in
 /// check_extensions.
 bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, const Point& from, const Point& to,
                     double size);

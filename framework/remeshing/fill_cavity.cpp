@@ -97,7 +97,8 @@ void verify(const CavityOutline& outline, const CanonicalDrawing& drawing, const
       wanted += 0.5 * cross(outline.points[points[0]] - origin, outline.points[points[1]] - origin);
     }
   }
-  constexpr double rounding = 1e-9;  // of the area: a missing triangle is more
+  // Of the area: a missing triangle is more; round-off of coordinates, far below a triangle.
+  constexpr double rounding = 1e-9;
   if (!(std::abs(area - wanted) < rounding * wanted) || smallest_angle(filling) <= 0) {
     throw std::runtime_error("the mesh generator left a part of the cavity empty near " +
                              to_text(drawing.outward(outline.points.front())));

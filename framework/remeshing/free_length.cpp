@@ -11,7 +11,7 @@ namespace sprekk {
 
 FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point& from, const Point& direction) {
   if (!(direction.norm() > 0)) throw std::invalid_argument("free_length: the direction has no length");
-  constexpr double rounding = 1e-12;  // of a length, at the ends of a segment and beside a line
+  constexpr double rounding = 1e-12;  // of a length, at the ends of a segment and beside a line: far below an edge
   constexpr double parallel = 1e-14;  // sine of the angle between lines whose crossing is lost to rounding
   const Point u = direction.normalized();
   FreeLength free{std::numeric_limits<double>::infinity(), FreeLength::Met::nothing, none, from};

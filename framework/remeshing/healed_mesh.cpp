@@ -55,7 +55,7 @@ class ReplacedCells {
 
   void check_length(double replaced_length) const {
     if (extension_.points.empty()) return;  // refused later, like all paths without points
-    constexpr double round_off = 1e-12;
+    constexpr double round_off = 1e-12;     // of a length that is a sum of lengths
     Point from = mesh_.ridges[inner_point(cells_.front())].center;
     double length = 0;
     for (const Point& to : extension_.points) length += (to - from).norm(), from = to;

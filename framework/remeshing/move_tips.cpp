@@ -16,7 +16,7 @@ namespace {
 
 /// The smallest angle may fall to this part of what it was.
 constexpr double least_angle_part = 0.6;
-/// A point stays where it is when it moves by less than this part of an edge length.
+/// A point stays where it is when it moves by less than this part of an edge length: round-off of coordinates.
 constexpr double contact = 1e-9;
 
 class Motion {

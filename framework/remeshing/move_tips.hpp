@@ -16,10 +16,13 @@ namespace sprekk {
 /// Positions, and overlaps with the cells of `before`, are continuous functions of the points; those that `grown` was
 /// made with give `grown` again.
 ///
-/// Returns nothing when the mesh must be made anew: when a cell would turn over or have an angle below six tenths of
-/// the smallest angle of `grown`, when segments were divided (other than where whole segments cross an interface: these
-/// nodes stay, and the path bends there), or when a point that lies on the outer boundary, an interface or another
-/// fracture would leave it, or one would come there. Throws ExtensionError for paths that extend_fractures refuses.
+/// Returns nothing when the mesh must be made anew:
+/// - a cell would turn over, or have an angle below six tenths of the smallest angle of `grown`;
+/// - segments were divided (except where whole segments cross an interface: these nodes stay, and the path bends
+/// there);
+/// - a point that lies on the outer boundary, an interface or another fracture would leave it, or one would come there.
+///
+/// Throws ExtensionError for paths that extend_fractures refuses.
 std::optional<GrownMesh> move_tips(const Mesh& before, const GrownMesh& grown,
                                    const std::vector<PathExtension>& extensions, const CavityOptions& options);
 

@@ -23,6 +23,7 @@ constexpr double wanted_angle = 25 * std::numbers::pi / 180;
 struct Attempt {
   double radius_factor, size_factor;
 };
+/// In the order of their cost.
 constexpr Attempt attempts[] = {{1, 1}, {1, 0.75}, {1.25, 1}, {1.25, 0.75}, {1.6, 1}, {2, 1}};
 /// The search ends after this many attempts in a row without an improvement, since some angles between fixed lines are
 /// small.
@@ -143,7 +144,7 @@ class Refilling {
 
   static bool are_in_line(const OuterEdge& a, const OuterEdge& b, const std::vector<Point>& nodes) {
     const Point u = nodes[a.nodes.back()] - nodes[a.nodes.front()], v = nodes[b.nodes.back()] - nodes[b.nodes.front()];
-    constexpr double straight = 1e-14;  // rad: edges of a straight side bend by rounding only
+    constexpr double straight = 1e-14;  // rad: edges of a straight side bend by rounding only; some hundred roundings
     return a.side == b.side && a.region == b.region && std::abs(cross(u, v)) <= straight * u.norm() * v.norm();
   }
 

@@ -7,7 +7,7 @@ namespace sprekk {
 void add_replaced_parts(const Mesh& old, const std::vector<int>& replaced, const Mesh& mesh,
                         const std::vector<int>& path, MeshChange& change) {
   SPREKK_EXPECT(replaced.empty() || !path.empty(), replaced.size());
-  constexpr double round_off = 1e-12;  // of a cell's length
+  constexpr double round_off = 1e-12;  // of a cell's length: round-off of sums of lengths
   std::size_t next = 0;
   double way = 0, end_of_path_cell = path.empty() ? 0 : mesh.fracture_cells[path[0]].measure;  // m, from the anchor
   for (const int old_cell : replaced) {

@@ -13,8 +13,9 @@
 namespace sprekk {
 namespace {
 
-constexpr double on_the_edge = 1e-9;  // barycentric coordinate of a point on an edge
-constexpr double in_line = 1e-6;      // ratio of singular values where all neighbours lie on one line
+// Barycentric coordinate of a point on an edge: round-off of points that lie on an edge.
+constexpr double on_the_edge = 1e-9;
+constexpr double in_line = 1e-6;  // ratio of singular values where all neighbours lie on one line
 
 using Edge = std::pair<Position, Position>;
 

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A fracture of another mesh may be off a place on it by this, over the length of its own cell there.
+/// A fracture of another mesh may be off a place on it by this, over the length of its own cell there: meshes of one
+/// fracture differ by far less.
 constexpr double beside = 0.5;
 
 std::string without_unit(const std::string& label) { return label.substr(0, label.find('[')); }

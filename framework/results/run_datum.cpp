@@ -9,7 +9,7 @@
 namespace sprekk {
 namespace {
 
-/// Times that are one but for round-off, as a share of the run's length.
+/// Times that are equal except for round-off, as a share of the run's length: as for steps.
 constexpr double same_time = 1e-9;
 
 }  // namespace

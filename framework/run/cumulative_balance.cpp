@@ -9,7 +9,7 @@ namespace sprekk {
 
 namespace {
 
-constexpr double most = 1e-6;  ///< of the throughput
+constexpr double most = 1e-6;  ///< of the throughput: a hundred times what steps are accepted with
 const std::string key = "cumulative_balance.throughput.";
 
 }  // namespace

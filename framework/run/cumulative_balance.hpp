@@ -12,8 +12,8 @@ namespace sprekk {
 class CumulativeBalance {
  public:
   /// `balances`: at the end of the step that is about to be accepted. `tolerance`: the part of what is moved to which
-  /// the schedule keeps them in each step; where it is small, no more than round-off can be missing, and that is all
-  /// there is where nothing moves.
+  /// the schedule keeps the balances in each step. Where it is small only round-off can be missing; where nothing
+  /// moves, round-off is all that there is.
   void note_step(const std::map<std::string, Balance>& balances, double tolerance, Notes& notes);
 
   /// State for checkpoints.

@@ -20,7 +20,7 @@ namespace {
 constexpr double of_largest = 1e-2;     // a field that has faded below this share of its past is measured by the past
 constexpr double least_share = 1e-5;    // of the largest value of the unit: a field below it is as good as zero
 constexpr double worth_telling = 1e-3;  // of a field
-constexpr double middle_factor = -0.5;  // of a pass, between 0 and -1
+constexpr double middle_factor = -0.5;  // of a pass, between 0 and -1: the middle of those of stable drained splits
 constexpr double middle_excess = std::numbers::sqrt2;  // of the distance over the error, between 1 and 2
 const std::string key = "splitting_error.";
 

@@ -35,8 +35,8 @@ class SplittingError {
   /// After the step has been accepted, where that is due. The model keeps the accepted state.
   void after_acceptance(Model& model, const StepTime& step);
 
-  /// For history.csv: the error of the field whose error over its largest value is largest, and the largest residual of
-  /// any equation over its terms when all of the step is looked at together.
+  /// For history.csv: the largest error of a field over its largest value, and the largest residual of any equation
+  /// over its terms, with all equations of the step taken together.
   std::vector<Quantity> quantities() const;
   /// By the names of the solved fields, over the largest value of each; empty where nothing was estimated.
   const std::map<std::string, double>& of_fields() const { return errors_; }

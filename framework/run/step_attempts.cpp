@@ -87,7 +87,7 @@ std::string StepAttempts::limit_steps() {
 /// The step that is due, unless a part or growth at the speed of the last one needs a shorter one.
 StepTime StepAttempts::next_step() const {
   StepTime step = state_.controller.next(growth_.longest_step());
-  // Equal parts, so that no tiny step is left.
+  // Equal parts, so that no tiny step is left: round-off of sums of steps.
   constexpr double rounding = 1e-9;
   if (const double parts = std::ceil(step.dt / longest_ - rounding); parts > 1) {
     step.dt /= parts;

@@ -10,7 +10,7 @@
 namespace sprekk {
 namespace {
 
-constexpr std::size_t most_places = 3;
+constexpr std::size_t most_places = 3;  // that a message names: more are no help
 
 /// Whether an item or an entry of the section has this type.
 bool has_type(const Node* section, const std::string& type) {

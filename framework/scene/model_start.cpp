@@ -18,7 +18,8 @@ namespace {
 /// Turns the status into "not converged" where a value grows with the time, however small the rate: then there is no
 /// state at rest.
 void refuse_growth(const std::vector<const Field*>& settled, StepStatus& status) {
-  constexpr double without_end = 1e12;  // in the unit of the field, or of its largest value before
+  // In the unit of the field, or of its largest value before: far above any pressure or temperature.
+  constexpr double without_end = 1e12;
   for (const Field* field : settled) {
     if (field->size() == 0) continue;
     const double before = parallel::max(field->accepted().lpNorm<Eigen::Infinity>());
@@ -67,7 +68,7 @@ StepStatus Model::settle_start() {
   // What depends on the length of steps is that of the first one: the state rests in the equations of the run.
   const StepTime first{scene_.time.start, scene_.time.step, scene_.time.start};
   begin_step(parts_, first);
-  constexpr double forever = 1e30;  // s
+  constexpr double forever = 1e30;  // s: rock conducts over L^2 S mu/k < 1e22 s
   StepStatus status = settle_->run({first.start, forever, first.end});
   if (status.converged) refuse_growth(settle_->unknowns(), status);
   if (!status.converged) return status;

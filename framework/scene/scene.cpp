@@ -250,7 +250,7 @@ void check_start(const Scene& scene) {
 }
 
 void check_output(const Scene& scene) {
-  constexpr double most_outputs = 1e6;
+  constexpr double most_outputs = 1e6;  // no disk holds more
   if (!scene.output.every) return;
   const double count = (scene.time.end - scene.time.start) / *scene.output.every;
   if (count > most_outputs)
@@ -305,7 +305,7 @@ void note_tables(const Node& node, Scene& scene) {
   if (!file || !file->is_scalar()) return;
   const TimeOptions& time = scene.time;
   const double step = std::min(time.adaptive ? time.largest : time.step, time.end - time.start);
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-9;  // of the standard step: times that are one (step_controller.cpp)
   std::vector<double> times = times_of_table(node, scene.folder);
   std::erase_if(times, [&](double t) { return t < time.start || t > time.end; });
   double nearest = std::numeric_limits<double>::infinity();
@@ -327,7 +327,7 @@ void note_times(Scene& scene) {
     const Origin& origin = given ? given->origin : scene.whole.find(section)->origin;
     scene.notes.add(std::string(section) + "." + key + " without effect", origin.text() + ": " + text);
   };
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-9;  // of the standard step: times that are one (step_controller.cpp)
   const double duration = time.end - time.start;
   const std::string duration_text = "the run is " + quantity_text(duration, "s") + " long";
   if (time.step > duration * (1 + rounding))

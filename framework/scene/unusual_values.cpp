@@ -23,7 +23,7 @@ namespace {
 /// Whether the value is of order one, or zero, or contains the width of a fracture, which is small beside a box of
 /// order one.
 bool is_of_order_one(const PropertyValue& property) {
-  constexpr double most = 1e3;
+  constexpr double most = 1e3;  // values in SI units are larger or smaller
   const double size = std::abs(property.value);
   return property.unit == "m" || property.unit == "m^3" || size == 0 || (size <= most && size * most >= 1);
 }

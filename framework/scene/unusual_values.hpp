@@ -22,14 +22,14 @@ struct PropertyValue {
   Origin where;
 };
 
-/// The values of all properties with a usual range that a scene gives: of numbers, of all parts of a datum (by region,
-/// in windows, in tables), and of expressions the most unusual value in the cells that they are for, at the beginning,
-/// in the middle and at the end of the time for which they hold.
+/// The values of all properties with a usual range that a scene gives: numbers, and all parts of a datum (by region, in
+/// windows, in tables). Of an expression it is the most unusual value in the cells that it is for, at the beginning, in
+/// the middle and at the end of the time for which it holds.
 std::vector<PropertyValue> properties_of(const Scene& scene, const PlacesOfParts& places);
 
-/// Adds a note for each value outside of its range. Where all values are of order one, but for widths and
-/// transmissivities of fractures, such a scene is taken for one without dimensions, and has a single note on those with
-/// a unit.
+/// Adds a note for each value outside of its range. Where all values are of order one, except for widths and
+/// transmissivities of fractures, such a scene is treated as one without dimensions, and has a single note on those
+/// with a unit.
 void note_unusual_values(const std::vector<PropertyValue>& properties, Notes& notes);
 
 /// Other units of the number in "40 Pa" with which it would be in the usual range: "40 MPa", "40 GPa"; none for an

@@ -26,7 +26,7 @@ struct CriterionOptions {
 
 /// Parameters of `until:`.
 struct UntilOptions {
-  double relative = 1e-8;
+  double relative = 1e-8;  ///< as Newton's `update`
   bool is_relative_given = false;
   int at_most = 60, at_least = 1;
   std::list<CriterionOptions> all, any;

@@ -123,7 +123,7 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
 }
 
 bool GrowStep::may_shrink(const StepTime& step) const {
-  constexpr double rounding = 1e-9;  // of the smallest step
+  constexpr double rounding = 1e-9;  // of the smallest step: round-off of sums of steps
   return step.dt > smallest_step_ * (1 + rounding);
 }
 

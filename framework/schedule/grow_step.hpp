@@ -48,7 +48,7 @@ class GrowStep : public ScheduleStep {
   /// In which steps tips grow with the state held, as with after_step, although growth belongs to the steps.
   enum class Holding {
     never,
-    if_far_above,  ///< in a step that may not shrink, where tips are far above their toughness
+    if_far_above,  ///< in a step that may not shrink, where tips are far above the load of growth
     always
   };
   void choose(Holding holding) { holding_ = holding; }
@@ -67,9 +67,9 @@ class GrowStep : public ScheduleStep {
   CavityOptions cavity() const { return growing_->cavity(); }
   /// Whether a growth event still shows at the tips.
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
-  /// Whether growth in the last attempt is at its end, and has settled: no tip that grew was above its toughness by
-  /// more than the overshoot, and the state at the tips is as before, or drifts evenly. Tips that are closed, or would
-  /// grow by less than the shortest increment, do not count: they may stay above their toughness while others grow.
+  /// Whether growth in the last attempt is at its end, and has settled: no tip that grew was above the load of growth
+  /// by more than the overshoot, and the state at the tips is as before, or drifts evenly. Tips that are closed, or
+  /// would grow by less than the shortest increment, do not count: they may stay above it while others grow.
   bool has_come_to_rest() const {
     return extensions_.empty() && growth_load_ <= 1 + options_.overshoot && load_.uneven <= options_.settled;
   }

@@ -21,9 +21,9 @@ class UnsolvedGrowth : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The search for the advance of all tips in one time step, so that the condition of growth holds in the state at the
-/// end of the step, on the mesh that has the advance. Usage: build the trial mesh with paths(), run the step on it, and
-/// let the search learn from it, until the advance is found or refused.
+/// Searches for the advance of all tips in one time step: the condition of growth is to hold in the state at the end of
+/// the step, on the mesh with this advance. Usage: build the trial mesh with paths(), run the step on it, and let the
+/// search learn from it, until the advance is found or refused.
 class FrontSearch {
  public:
   virtual ~FrontSearch() = default;
@@ -68,14 +68,14 @@ class Growing {
     double onset_accepted = 0;  ///< the same at the start of the step
     /// Largest relative change over the step of the state at the tips that a growth event disturbs.
     double unsettled = 0;
-    /// The same of what its rate of change in the last step does not foretell: 0 where it drifts evenly, as under an
-    /// injection. At most `unsettled`.
+    /// The same for the part of the change that the rate of the last step does not foretell: 0 where the state drifts
+    /// evenly, as under an injection. At most `unsettled`.
     double uneven = 0;
   };
   /// Throws InputError where nothing tells it what loads its tips.
   virtual void require_loads() const {}
   virtual Load examine(const StepTime& step) = 0;
-  /// Examines those tips alone whose growth search_front() finds: others do not count in trials.
+  /// Examines only the tips whose growth search_front() finds: the others do not count in trials.
   virtual void examine_followed(const StepTime& step) = 0;
   /// The growth of all tips in a step.
   struct Growth {
@@ -89,12 +89,12 @@ class Growing {
   /// that is too short for the mesh; such a path counts from the next step on, if this one is accepted. With growth
   /// within steps the mesh is to take over, after the step, only paths that join another fracture.
   virtual Growth grow(const StepTime& step) = 0;
-  /// Whether growth is found within steps where the scene leaves that open.
+  /// Whether growth is found within steps if the scene does not say.
   virtual bool may_grow_within_steps() const = 0;
-  /// To be called once, where growth is to be found within steps (search_front) as far as the mesh can follow it.
+  /// To be called once: from then on growth is found within steps (search_front), as far as the mesh can follow it.
   virtual void grow_within_steps() = 0;
-  /// Where growth belongs to the steps: from now on all tips grow by grow() if `is_held`, and by search_front()
-  /// otherwise.
+  /// With growth within steps: from now on all tips grow with the state held, by grow(), if `is_held`, and by
+  /// search_front() otherwise.
   virtual void hold(bool is_held) = 0;
   /// Whether the load of a tip is so far above that of growth that its growth is not continuous in time. To be called
   /// after examine().
@@ -111,8 +111,8 @@ class Growing {
   /// state; it must not outlive this component. Where the step may not become shorter, growth that is too far or not
   /// found to the last digit is taken, with a note.
   virtual std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink, bool goes_on) = 0;
-  /// `other`: the same component in the same state on other cells, which the trials of a search begin with. What a
-  /// search of this component has learnt for its next trial is given to it.
+  /// Gives `other`, the same component in the same state on other cells, what a search has learnt for its next trial:
+  /// the trials go on with `other`.
   virtual void prepare(Growing& /*other*/) const {}
   /// The paths that the mesh has not taken over yet, in the current state.
   virtual std::vector<PendingPath> pending_paths() const { return {}; }

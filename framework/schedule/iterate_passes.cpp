@@ -16,7 +16,7 @@ namespace sprekk {
 
 namespace {
 
-constexpr std::size_t without_progress = 25;                     // passes
+constexpr std::size_t without_progress = 25;  // passes that change nothing and bring the residual no lower
 constexpr std::size_t patience = 10, patience_accelerated = 20;  // passes whose changes stay large
 
 /// "pore" of "pore.pressure".
@@ -154,7 +154,7 @@ class IterateStep::Passes {
       seen_states_.insert(state);
     }
     if (is_cycling_ && is_other_state) {
-      constexpr double half = 0.5;
+      constexpr double half = 0.5;  // of a pass: its end is between both states of the cycle
       own_.set_scaled_values(before_ + half * change_);
       return;
     }

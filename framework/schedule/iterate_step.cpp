@@ -156,7 +156,7 @@ void IterateStep::choose_scales() {
     if (field->size() > 0)
       l = std::max({l, field->now().lpNorm<Eigen::Infinity>(), field->accepted().lpNorm<Eigen::Infinity>()});
   }
-  constexpr double digits = 1e-8;  // a field with fewer must not hide the changes of others
+  constexpr double digits = 1e-8;  // a field with fewer must not hide the changes of others: square root of round-off
   for (std::size_t u = 0; u < fields_.size(); ++u) {
     double l = largest[fields_[u]->spec().unit];
     if (!round_off_.empty() && fields_[u]->size() > 0) l = std::max(l, round_off_[u].maxCoeff() / digits);

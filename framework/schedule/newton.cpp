@@ -162,7 +162,7 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool
   double best_length = 0, best_merit = 0;
   const double bound = merit_bound(recent_);
   constexpr double sufficient = 1e-4;              // of the descent that the derivatives predict (Armijo 1966)
-  constexpr int for_descent = 6, for_finite = 12;  // halvings
+  constexpr int for_descent = 6, for_finite = 12;  // halvings: to 1/64, or to 1/4096
   length = 1;
   for (int halvings = 0; halvings < (ask_for_descent ? for_descent : for_finite); ++halvings, length /= 2) {
     move(from, update, length);

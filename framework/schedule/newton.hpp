@@ -22,7 +22,7 @@ namespace sprekk {
 /// Tolerances (relative) and limits of Newton's method.
 struct NewtonOptions {
   double residual = 1e-10;  ///< largest residual of an equation over the largest of its terms
-  double update = 1e-8;     ///< largest change of a field over its largest value
+  double update = 1e-8;     ///< largest change of a field over its largest value: quadratic convergence squares it
   int at_most = 30;         ///< iterations
   int undamped = 8;         ///< iterations before the line search asks for descent
   int pieces = 300;         ///< most pieces of the path of the last attempt; 0: no such attempt

@@ -63,7 +63,7 @@ StepStatus Newton::finish_with_own_derivatives(const StepTime& step, StepStatus 
 
 /// A path that has failed is tried again in a much shorter step only.
 bool Newton::may_follow_path(const StepTime& step) const {
-  constexpr double much_shorter = 1.0 / 2;
+  constexpr double much_shorter = 1.0 / 2;  // of the step that failed; chosen by scenes with cut steps
   if (options_.pieces == 0 || !(state_has_changed_ || is_nonlinear_in_pieces())) return false;
   const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
   return !has_failed || step.dt <= much_shorter * last_failed_path_.dt;
@@ -110,7 +110,7 @@ StepStatus Newton::follow_paths(const StepTime& step, const std::vector<Vector>&
 /// Coefficients c_0^(1 - share) c^share, for shares that grow from 0, where the path has ended, to 1. Each solution is
 /// the start for the next share. After a failure the increment of the share is halved, after a success doubled.
 StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<Vector>& start) {
-  constexpr double first = 0.25, smallest = 1.0 / 64;
+  constexpr double first = 0.25, smallest = 1.0 / 64;  // shares of the coefficients, at first and at least
   std::vector<Vector> reached = values();
   set(start);
   for (PiecewiseSmooth* part : pieces_) part->hold_coefficients();

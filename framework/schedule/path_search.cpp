@@ -24,7 +24,7 @@ struct Crossing {
 /// convex, so if a length is in the piece, all shorter lengths are.
 template <class IsSame>
 std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
-  constexpr double sharpness = 1e-13, shortest = 1e-16;
+  constexpr double sharpness = 1e-13, shortest = 1e-16;  // of a length: some hundred roundings; and the shortest one
   SPREKK_EXPECT(limit > 0, limit);
   Crossing crossing{0, std::min(1.0, limit)};
   while (is_same(crossing.behind)) {
@@ -45,6 +45,7 @@ std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
 /// starts beside the kinks. Fields of one unit share a scale: jumps that are zero while everything sticks are compared
 /// with displacements.
 void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
+  // Above round-off of the state; by other amounts for each unknown.
   constexpr double aside = 1e-5, golden_ratio = 0.6180339887498949;
   SPREKK_EXPECT(update.size() == system_.size(), update.size(), system_.size());
   SPREKK_EXPECT(system.blocks.size() == unknowns_.size(), system.blocks.size(), unknowns_.size());
@@ -82,7 +83,7 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
   std::uint64_t left = 0;    // the last piece before the present one
   bool has_crossed = false;  // since the last whole step
   int whole_steps = 0;
-  constexpr int patience = 30;         // pieces
+  constexpr int patience = 30;         // pieces without this gain
   constexpr double least_gain = 1e-6;  // of s
   double share = 1, least_share = 1;   // s
   int without_gain = 0;

@@ -12,7 +12,7 @@ namespace sprekk {
 
 namespace {
 
-constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of summed terms
 /// Squares of smaller numbers are zero, so no norm shows them. Values that are to be zero, but are solved for among
 /// large ones, shrink by 1e-16 in each iteration until they get there.
 constexpr double no_digits = 1e-154;

@@ -46,7 +46,7 @@ constexpr double looser_for_balances = 100;
 /// What rows exchange may be any multiple of what they store, and a residual that is small against the exchange may be
 /// as large as all of the storage. So the balances of a conserved quantity are also compared with their throughput
 /// (BalanceRows): neither the sum of all absolute residuals, nor their sum without exchanges, which has more digits,
-/// may exceed 100 × tolerance times the throughput, but for round-off. Balances in whose place values are fixed are
+/// may exceed 100 × tolerance times the throughput, apart from round-off. Balances in whose place values are fixed are
 /// left out: fixed values let an unknown amount in.
 ///
 /// One fracture may conduct any multiple of what another one stores. So each balance of an interface, where fluxes are

@@ -87,7 +87,7 @@ Spec newton_spec(NewtonOptions& options) {
 }
 
 Spec solver_spec(LinearOptions& options) {
-  constexpr int largest_in_space = 50'000;
+  constexpr int largest_in_space = 50'000;  // factors fill far more than in a plane: memory
   if (dimension == 3) options.largest_for_direct = largest_in_space;
   Spec spec("solver", "The solver of linear systems.");
   spec.choice(

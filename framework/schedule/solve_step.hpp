@@ -52,13 +52,13 @@ class SolveStep : public ScheduleStep {
   /// The pairs of fields for which the stabilization adds the Schur complement of the waiting unknowns.
   ResponseOptions wanted_responses() const;
   std::vector<const Field*> waiting() const;
-  /// Those of the waiting fields that can answer: not those of a component that needs one which this step solves for,
-  /// and which would be held meanwhile.
+  /// The waiting fields that can answer. Fields of a component that depends on one which this step solves for cannot:
+  /// that one would be held.
   std::vector<const Field*> answering() const;
   const Responses& responses(const StepTime& step);
-  /// The waiting fields whose balances keep their amounts by the stabilization.
+  /// The waiting fields whose balances the stabilization lets keep their amounts (HeldAmounts).
   std::vector<const Field*> held_amounts() const;
-  /// Without bounds of the response, which are far from linear, and with them where that does not converge.
+  /// Solves without the bounds of the response, which are far from linear; with them where that does not converge.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization, const Responses& of_waiting);
   /// Whether the values of a solve that has used up its iterations may be used by the iteration around it.
   bool is_good_enough(const StepTime& step);

@@ -12,8 +12,8 @@ struct StepStatus {
   std::string reason;   ///< why not
   int iterations = 0;   ///< the most that any solve or iteration inside has needed
   double retry_dt = 0;  ///< s; the size with which to repeat a step that did not converge, 0 where the caller chooses
-  /// The most of Newton's method in any solve inside, where `iterations` counts passes; negative: `iterations` are
-  /// those.
+  /// The largest number of Newton iterations in a solve inside, where `iterations` counts passes; negative where
+  /// `iterations` are Newton's.
   int of_newton = -1;
 
   /// s; the time from which on there is no equilibrium while unknowns of other solves are held, if that is why not.

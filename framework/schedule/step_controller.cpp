@@ -9,8 +9,10 @@
 namespace sprekk {
 namespace {
 
-constexpr double rounding = 1e-9;         ///< of the standard step: times nearer than this are the same
-constexpr double least_rise = 1e-2;       ///< of a level: from a smaller rise no rate follows
+/// Of the standard step: times nearer than this are the same; round-off of sums of steps.
+constexpr double rounding = 1e-9;
+/// Of a level: from a smaller rise no rate follows; levels are known to `arrest_tolerance`, 1 %.
+constexpr double least_rise = 1e-2;
 constexpr double of_failed_size = 0.999;  ///< a step that is shorter by rounding only is as long as the failed one
 constexpr double smallest_part = 1e-6;    ///< of the standard step: the smallest, where the scene does not give it
 constexpr double shortest_part = 0.1;     ///< of the standard step: the shortest wait for a hold that is expected
@@ -100,7 +102,7 @@ Spec TimeOptions::spec() {
     scheme = scheme_name == "sdirk2" ? TimeScheme::sdirk2 : TimeScheme::backward_euler;
     if (end <= start)
       throw InputError(node.origin, "the run has no duration", "its end is not after its start", "raise 'end'");
-    constexpr double most_steps = 1e9;
+    constexpr double most_steps = 1e9;  // no life is long enough
     if ((!adaptive && (end - start) / step > most_steps) || start + step == start)
       throw InputError(node.origin, "the step of " + quantity_text(step, "s") + " is too small",
                        "the run is " + quantity_text(end - start, "s") + " long", "raise 'step'");
@@ -202,8 +204,8 @@ bool StepController::rejected(const StepTime& step, double retry) {
   SPREKK_EXPECT(step.start == time_, step.start, time_);
   const double shortest = smallest();
   if (step.dt <= shortest) return false;
-  if (retry <= 0) {  // a step that asks for another size has not failed
-    constexpr int longest_patience = 48;
+  if (retry <= 0) {                       // a step that asks for another size has not failed
+    constexpr int longest_patience = 48;  // steps; half as many were tried, too
     if (failed_.size > 0 && step.dt >= of_failed_size * failed_.size)
       failed_.patience = std::min(longest_patience, 2 * failed_.patience);
     failed_.size = step.dt;

@@ -22,8 +22,8 @@ struct TimeOptions {
   Origin scheme_origin;
   std::optional<double> smallest;  ///< s; a rejected step is not cut below it
   bool adaptive = false;
-  double largest = 0;  ///< s, of adaptive steps
-  double grow = 1.5, shrink = 0.5;
+  double largest = 0;               ///< s, of adaptive steps
+  double grow = 1.5, shrink = 0.5;  ///< of adaptive steps, by ten days of configs/tutorial/first_scene.yaml
   /// Ends the run before `end`, after the first step at whose end a column of history.csv has reached a value.
   struct Stop {
     std::string of;                       ///< the quantity, without its unit
@@ -70,17 +70,17 @@ class StepController {
   double smallest() const;                   ///< s, of rejected steps
   double wanted() const { return wanted_; }  ///< s, the size of the next step unless a target or a hold comes before
   StepTime next() const;
-  /// The same, but no longer than `longest` (s, positive): then one of equal parts of what is left to the next target,
-  /// so that with the same limit no tiny step is left before it; or as long as it may be, if that part is no longer
-  /// than the smallest step.
+  /// The same, but no longer than `longest` (s, positive). What is left to the next target is divided into equal parts,
+  /// so that no tiny step is left before it; if such a part is no longer than the smallest step, the step is as long as
+  /// it may be.
   StepTime next(double longest) const;
 
   void accepted(const StepTime& step, int iterations);
   /// Makes the next step shorter: `retry` (s), if that is given. Returns false when no shorter step is allowed.
   bool rejected(const StepTime& step, double retry = 0);
-  /// Holds all steps at this size (s) until `release`. The standard size then returns, but a step ends at the time at
-  /// which the next hold is expected: the last pause (from a release to the next hold), times the rise of the level to
-  /// 1 that is left, over the rise in that pause. Such a step has at least a tenth of the standard size.
+  /// Holds all steps at this size (s) until `release`. Then the standard size returns, but a step ends when the next
+  /// hold is expected. A hold begins when the level is 1; the level is assumed to rise as fast as in the last pause,
+  /// from a release to the next hold. Such a step has at least a tenth of the standard size.
   void hold(double step, double level);
   void release(double level);
   /// Holds and releases steps for events that are not expected to recur.

@@ -123,7 +123,7 @@ void SubcycleStep::let_parts_take_stages(bool are_stages) {
 }
 
 bool SubcycleStep::begins_with_jump(const StepTime& step) {
-  constexpr double rounding = 1e-9;  // of the step
+  constexpr double rounding = 1e-9;  // of the step: round-off of sums of steps
   if (!jumps_) {
     jumps_.emplace();
     // With one stage, fields that are held cost no order, and loads may be there at once when the run begins.

@@ -26,7 +26,7 @@ struct SubcycleOptions {
 /// are put back: the step as a whole is accepted by the step controller.
 ///
 /// With two stages (TimeScheme::sdirk2) each substep is two of backward Euler. The second one starts from accepted
-/// values that are extrapolated from what the first one has changed, but for fields of which the path counts
+/// values that are extrapolated from what the first one has changed, except for fields of which the path counts
 /// (FieldSpec::is_path_dependent).
 ///
 /// Inside an iteration every pass takes all substeps anew, against the latest course of the waiting fields (waveform

@@ -188,7 +188,7 @@ SparseMatrix WaitingResponse::driving(const Assembly& assembly, const Field& col
 }
 
 void WaitingResponse::respond(const Assembly& assembly, const std::map<const Field*, SparseMatrix>& answers) {
-  constexpr double negligible = 1e-6;  // of the largest entry of the column
+  constexpr double negligible = 1e-6;  // of the largest entry of the column: with room for thousands of cells
   std::vector<const Field*> columns;
   for (const Following& pair : options_.pairs)
     if (std::ranges::count(columns, pair.column) == 0) columns.push_back(pair.column);

@@ -183,8 +183,8 @@ std::string unit_of(const std::string& array) {
 
 /// The mean factor of the last changes by passes in the first step, before these are round-off.
 std::optional<double> measured_factor(const CsvTable& coupling) {
-  constexpr double round_off = 1e-11;
-  constexpr std::size_t counted = 4;
+  constexpr double round_off = 1e-11;  // of scaled fields
+  constexpr std::size_t counted = 4;   // of which the factor is the mean
   const std::vector<std::string> steps = coupling.texts(coupling.find("schedule"));
   const std::vector<double> passes = coupling.numbers("iteration"), changes = coupling.numbers("update");
   std::vector<double> sizes;

@@ -16,9 +16,9 @@ struct AtlasOptions {
   std::vector<std::string> accelerations;          ///< "aitken: {}"; all that are usual if there are none
   std::vector<std::string> only;                   ///< parts of names of schemes; all schemes if there are none
   std::vector<std::string> over;                   ///< two at most, "path=value,value": a map for each scheme
-  int steps = 3;
-  double until = 1e-8;
-  int at_most = 60;
+  int steps = 3;                                   ///< of each run
+  double until = 1e-8;                             ///< as that of a scene
+  int at_most = 60;                                ///< passes; more have not converged
   std::optional<std::filesystem::path> folder;
   int processes = 0;  ///< runs at a time
   bool is_quiet = false;

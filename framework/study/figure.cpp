@@ -20,7 +20,7 @@ Origin origin_of(const Node& map, const std::string& key) {
 }
 
 double value_at(const std::vector<double>& times, const std::vector<double>& values, double time) {
-  constexpr double rounding = 1e-9;  // of the last time
+  constexpr double rounding = 1e-9;  // of the last time: round-off of a few operations
   const double tolerance = times.empty() ? 0 : rounding * std::abs(times.back());
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (std::abs(times[i] - time) <= tolerance) return values[i];

@@ -17,7 +17,7 @@ namespace sprekk {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t most_runs = 10'000;
+constexpr std::size_t most_runs = 10'000;  // more are a mistake
 constexpr std::size_t longest_name = 100;  // letters of a run's folder
 
 /// The text without blanks, and without letters that names of folders should not have.

@@ -7,7 +7,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double grid = 0x1p-32;
+constexpr double grid = 0x1p-32;  // that of Delaunay
 
 /// Rounds to the grid; the sum replaces a negative zero by zero.
 Point rounded(const Point& x) { return {std::round(x.x() / grid) * grid + 0.0, std::round(x.y() / grid) * grid + 0.0}; }

@@ -19,7 +19,7 @@ int previous(int k) { return k == 0 ? 2 : k - 1; }
 int turn(const Point& a, const Point& b, const Point& c) {
   const Point p = b - a, q = c - a;
   const double one = p.x() * q.y(), other = p.y() * q.x(), area = one - other;
-  constexpr double rounding = 0x1p-51;
+  constexpr double rounding = 0x1p-51;  // some roundings of these products: below, the exact sign
   if (std::abs(area) > rounding * (std::abs(one) + std::abs(other))) return area > 0 ? 1 : -1;
   const auto whole = [](double x) { return static_cast<__int128>(static_cast<std::int64_t>(x / Delaunay::grid)); };
   const __int128 exact = whole(p.x()) * whole(q.y()) - whole(p.y()) * whole(q.x());
@@ -31,7 +31,7 @@ bool is_in_circle(const Point& a, const Point& b, const Point& c, const Point& d
   const Point p = a - d, q = b - d, r = c - d;
   const double p2 = p.squaredNorm(), q2 = q.squaredNorm(), r2 = r.squaredNorm();
   const double qr = cross(q, r), rp = cross(r, p), pq = cross(p, q);
-  constexpr double rounding = 1e-14;
+  constexpr double rounding = 1e-14;  // some roundings of these products: what is nearer is on the circle
   const double sizes = p2 * q.norm() * r.norm() + q2 * r.norm() * p.norm() + r2 * p.norm() * q.norm();
   return p2 * qr + q2 * rp + r2 * pq > rounding * sizes;
 }
@@ -46,7 +46,7 @@ Delaunay::Delaunay()
 int Delaunay::find(const Point& x) const {
   // Walks from triangle to triangle towards x. Without fixed edges no triangle is visited twice.
   int t = last_;
-  constexpr std::size_t most_a_triangle = 4;  // fixed edges may lead around
+  constexpr std::size_t most_a_triangle = 4;  // fixed edges may lead around: a search needs a few
   for (std::size_t steps = 0; steps <= most_a_triangle * triangles_.size(); ++steps) {
     int towards = none;
     for (int k = 0; k < 3 && towards == none; ++k) {

@@ -15,7 +15,7 @@ namespace sprekk {
 /// neighbour (Lawson 1977). Fixed edges are recovered by flips (Sloan 1993), and are not flipped afterwards.
 class Delaunay {
  public:
-  static constexpr double grid = 0x1p-32;
+  static constexpr double grid = 0x1p-32;  ///< products of two coordinates fit into 128 bits
   static constexpr int outer_points = 4;
   /// Free edges may be flipped; lines inside of the region and edges of its boundary are fixed.
   enum class Edge : char { free, line, boundary };

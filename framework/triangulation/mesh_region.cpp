@@ -23,7 +23,7 @@ std::vector<Point> division(const Point& from, const Point& to, const std::funct
   // Steps are small, since sizes may differ by orders of magnitude. `edges`: the number of edges from the beginning to
   // each place.
   constexpr double step_per_size = 0.25;
-  constexpr double smallest_step = 1e-9;  // of the line
+  constexpr double smallest_step = 1e-9;  // of the line: a billion edges
   constexpr double nearly_all = 0.999;    // of what is left: the rest would be a step of rounding
   std::vector<double> places{0}, edges{0};
   while (places.back() < length) {
@@ -35,7 +35,7 @@ std::vector<Point> division(const Point& from, const Point& to, const std::funct
     edges.push_back(edges.back() + step / size(from + (places.back() + 0.5 * step) * along));
     places.push_back(step == left ? length : places.back() + step);
   }
-  constexpr double hardly_more = 0.01;
+  constexpr double hardly_more = 0.01;  // an edge that is a hundredth longer is no reason for one more
   const int count = std::max(1, static_cast<int>(std::ceil(edges.back() - hardly_more)));
   std::vector<Point> points;
   std::size_t i = 0;
@@ -201,7 +201,7 @@ class Mesher {
   }
 
   void fill() {
-    constexpr std::size_t most_points = 2'000'000;
+    constexpr std::size_t most_points = 2'000'000;  // no memory holds more
     while (!queue_.empty()) {
       const Entry entry = queue_.top();
       queue_.pop();
@@ -262,7 +262,7 @@ class Mesher {
 
   /// Whether a place is too near to a corner or a fixed edge of the triangle that contains it.
   bool is_crowded(int t, const Point& x, double size) const {
-    constexpr double to_corners = 0.5, to_lines = 0.3;
+    constexpr double to_corners = 0.5, to_lines = 0.3;  // of the wanted edge
     const Delaunay::Triangle& triangle = delaunay_.triangles()[t];
     for (int k = 0; k < 3; ++k) {
       const Point &a = point(triangle.corners[k]), &b = point(triangle.corners[(k + 1) % 3]);

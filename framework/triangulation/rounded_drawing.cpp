@@ -8,10 +8,11 @@
 namespace sprekk {
 namespace {
 
-constexpr double up_from = 0.6180339887498949;  ///< of the spacing that is added before rounding down
-constexpr int finer = 5;                        ///< powers of two between the local length and the spacing
-constexpr double no_round_number = 1.2345678;   ///< factor on lengths: powers of two are then not at an octave's edge
-constexpr double not_centred = 1e-6;            ///< of the frame: a mean that is nearer to the origin counts as centred
+/// Of the spacing that is added before rounding down: from the golden ratio.
+constexpr double up_from = 0.6180339887498949;
+constexpr int finer = 5;                       ///< powers of two between the local length and the spacing
+constexpr double no_round_number = 1.2345678;  ///< factor on lengths: powers of two are then not at an octave's edge
+constexpr double not_centred = 1e-6;           ///< of the frame: a mean that is nearer to the origin counts as centred
 
 /// The least distances between points, or lines that end there, and what they do not touch.
 std::vector<double> local_lengths(const std::vector<Point>& points, const std::vector<std::array<int, 2>>& lines,

@@ -10,10 +10,10 @@
 
 namespace sprekk {
 
-/// A mesh generator compares and counts, and where two lengths are equal but for their last digits, round-off decides
-/// which topology the mesh gets. So a mesh is made for a drawing on a coarse grid, and its nodes are moved to the given
-/// drawing afterwards: its topology changes where a number crosses a border between two multiples of the grid only, and
-/// its nodes are continuous in between.
+/// A mesh generator compares and counts, and where two lengths are equal except for their last digits, round-off
+/// decides which topology the mesh gets. So a mesh is made for a drawing on a coarse grid, and its nodes are moved to
+/// the given drawing afterwards: its topology changes where a number crosses a border between two multiples of the grid
+/// only, and its nodes are continuous in between.
 
 /// `value` on a grid of the given spacing. Borders lie at an irrational part of the spacing: round numbers are no ties.
 double rounded(double value, double spacing);

@@ -23,7 +23,7 @@ class Smoother {
       const auto [one, other] = edges.cells(edge);
       if (is_stale[one] || is_stale[other]) continue;
       const int b = opposite(other, a, c), d = opposite(one, a, c);  // a, b, c, d is counter-clockwise
-      constexpr double worthwhile = 1e-3;
+      constexpr double worthwhile = 1e-3;                            // rad: smaller gains change nothing
       if (std::min(shape(a, b, d), shape(b, c, d)) <= std::min(shape(a, b, c), shape(c, d, a)) + worthwhile) continue;
       triangles_[one] = {a, b, d};
       triangles_[other] = {b, c, d};

@@ -13,7 +13,7 @@ namespace {
 constexpr double worthwhile = 1e-3;  ///< rad; changes that gain less are not made
 constexpr double acceptable =
     20 * std::numbers::pi / 180;  ///< the least angle after a flip that removes a corner with two barriers
-constexpr int most_rounds = 12;
+constexpr int most_rounds = 12;   // improvements end before
 
 /// A round of changes on fixed connections. Triangles that a change has touched are stale until the next round.
 class Round {

@@ -72,8 +72,8 @@ RateAndStateLaw::Returned RateAndStateLaw::returned(double trial, double stiffne
     if (turn > low && turn < high) (at(turn).excess > 0 ? high : low) = turn;
   }
   double x = std::clamp(log_sinh(trial / strength) - shift, low, high);
-  constexpr int most = 200;
-  constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+  constexpr int most = 200;                                                 // bisection alone needs 60
+  constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();  // some roundings of the unknown
   Value value = at(x);
   for (int i = 0; i < most; ++i) {
     (value.excess > 0 ? high : low) = x;

@@ -17,7 +17,7 @@ struct RateAndStateOptions {
   double wave_speed = 0;                  ///< m/s, of shear waves
   bool is_damped = false;                 ///< whether the scene asks for radiation damping
   double state_change = 0.1;              ///< over L
-  double event_slip_rate = 1e-3;          ///< m/s
+  double event_slip_rate = 1e-3;          ///< m/s: between creep and the slip rates of earthquakes
   Spec spec();
 };
 

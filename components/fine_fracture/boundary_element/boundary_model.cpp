@@ -141,7 +141,7 @@ void BoundaryModel::place_outline() {
     perimeter += outline_edge(geometry_.outline, k).length();
     center += geometry_.outline[k] / edges;
   }
-  constexpr double inward = 1e-6;
+  constexpr double inward = 1e-6;  // of the way to the centre: above round-off of coordinates
   for (int k = 0; k < edges; ++k) {
     const Segment edge = outline_edge(geometry_.outline, k);
     const int points = std::max(2, static_cast<int>(std::lround(outline_places * edge.length() / perimeter)));

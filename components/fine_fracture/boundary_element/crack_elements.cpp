@@ -47,7 +47,7 @@ struct Corner {
   Point position;
   double sharpness;  ///< rad, of the bend of the path there, at most 1; 1 where more happens than a bend
   bool is_sharp() const {
-    constexpr double sharp = 0.2;  // rad
+    constexpr double sharp = 0.2;  // rad: powers of gentler ones are near 1
     return sharpness > sharp;
   }
 };
@@ -193,7 +193,8 @@ std::vector<CrackElement> crack_elements(const FineGeometry& geometry, const Div
 
 std::vector<CrackElement> beyond_elements(const std::vector<Point>& outline, const Point& from, const Point& to) {
   const double extent = outline_extent(outline), length = (to - from).norm();
-  constexpr double shortest = 0.02, growth = 0.5;  // of the outline's extent; of the distance from it
+  // Of the outline's extent; of the distance from it: their jumps are those of the coarse level.
+  constexpr double shortest = 0.02, growth = 0.5;
   std::vector<CrackElement> elements;
   const auto divide = [&](const auto& self, double first, double last) -> void {
     const Point middle = from + 0.5 * (first + last) * (to - from);

@@ -8,6 +8,7 @@
 namespace sprekk::fine_fracture {
 
 Vector contact_forces(const Eigen::MatrixXd& compliance, const Vector& gaps) {
+  // Rounds: Newton's method takes some ten; then one wall changes at a time.
   constexpr int at_once = 30, most_rounds = 2000;
   std::vector<char> touches(gaps.size(), 1);
   for (int round = 0; round < most_rounds; ++round) {

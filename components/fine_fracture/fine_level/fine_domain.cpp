@@ -154,8 +154,8 @@ struct Avoided {
 /// All ends, junctions and bends. Displacements of the coarse level vary within a cell on both sides of a sharp kink;
 /// beside a slight bend they hardly do. The coarse level does not know the bends of added paths.
 std::vector<Avoided> avoided_places(const std::vector<FracturePath>& paths) {
-  constexpr double at_kink = 4, at_least = 0.25;
-  constexpr double sharp = 0.5;  // the sine of a bend
+  constexpr double at_kink = 4, at_least = 0.25;  // cells at the tip: from a sharp kink, and from the slightest bend
+  constexpr double sharp = 0.5;                   // the sine of a bend
   const auto is_junction = [&paths](const FracturePath& of, const Point& x) {
     return std::ranges::any_of(
         paths, [&](const FracturePath& other) { return &other != &of && std::ranges::count(other.points, x) > 0; });
@@ -238,7 +238,7 @@ std::vector<FracturePath> joined(std::vector<FracturePath> paths, double toleran
 /// leave the rock, of which these sides are not on its bounding box.
 Rectangle square_in_rock(const Rectangle& rock, const std::vector<Segment>& sides, const Point& center, double size,
                          double gap, const std::vector<FracturePath>& paths) {
-  constexpr double step = 0.02;
+  constexpr double step = 0.02;      // of the size: how finely sizes are tried
   constexpr double more = 1 + 1e-9;  // exceeds rounding, so that domains of mirrored scenes are mirrored
   const std::vector<Avoided> places = avoided_places(paths);
   Rectangle box;

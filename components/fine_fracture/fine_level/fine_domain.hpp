@@ -19,7 +19,7 @@ struct TipEnd {
 /// A fracture with the paths that its ends have added in the fine level. Arc lengths count from the first point in the
 /// coarse level: added paths are below 0 and above `length`.
 struct FracturePath {
-  std::vector<Point> points;  ///< straight pieces are one segment, but for points where fractures meet or turn
+  std::vector<Point> points;  ///< straight pieces are one segment, except for points where fractures meet or turn
   std::vector<double> arc;    ///< m, of each point
   double length;              ///< m, of the coarse level
   bool first_is_tip, last_is_tip;
@@ -52,11 +52,11 @@ constexpr double largest_enlargement = 2;  ///< of the side of a fine level's sq
 /// The domain of a fine level: a square of side `size` (m) around `center`, clipped by the bounding box of the rock,
 /// with all paths in it. Where the rock is no such box, and has slanted sides or a hole in the square, the square is as
 /// much smaller as it has to be; throws std::invalid_argument where none fits. The outline keeps the distance `gap` (m)
-/// from tips, junctions and segments along a side, and 8 |sin| times that, but 0.25 times at least and 4 times at most,
-/// from a bend of the coarse level's paths. If necessary the square is larger, by less than `largest_enlargement`
-/// times; where no such square keeps the distances, the one that comes nearest to it is taken. `outline`: if given, the
-/// one of an earlier domain, which is kept. `coarse_walls`: how the walls of the coarse level are loaded; walls of
-/// added paths have tractions.
+/// from tips, junctions and segments along a side. From a bend of the coarse level's paths it keeps 8 |sin| times that,
+/// but no less than 0.25 and no more than 4 times. If necessary the square is larger, by less than
+/// `largest_enlargement` times; where no such square keeps the distances, the one that comes nearest to it is taken.
+/// `outline`: if given, the one of an earlier domain, which is kept. `coarse_walls`: how the walls of the coarse level
+/// are loaded; walls of added paths have tractions.
 FineDomain fine_domain(const Mesh& mesh, const std::vector<FracturePath>& paths, const TipEnd& tip, const Point& center,
                        double size, double gap, CrackPath::Walls coarse_walls,
                        const std::vector<Point>* outline = nullptr);

@@ -52,9 +52,10 @@ struct CrackJunction {
 /// All junctions of a geometry, in the order of their first vertices.
 std::vector<CrackJunction> junctions(const FineGeometry& geometry);
 
-/// Throws std::invalid_argument when the outline is not convex and counter-clockwise, when a list has the wrong length,
-/// or when a crack leaves the domain, has an end that is neither tip nor on the outline nor at a junction, or meets
-/// another crack other than in a point of both paths, on the outline, or at a tip.
+/// Throws std::invalid_argument when
+/// - the outline is not convex and counter-clockwise, or a list has the wrong length;
+/// - a crack leaves the domain, or has an end that is neither a tip nor on the outline nor at a junction;
+/// - two cracks meet anywhere but in a point of both paths, on the outline, or at a tip.
 void validate(const FineGeometry& geometry);
 
 }  // namespace sprekk::fine_fracture

@@ -12,7 +12,7 @@ namespace sprekk::fine_fracture {
 /// in some direction unless G_c + G_c'' > 0 in all: -1/2 < A < 1, weak anisotropy (Takei, Roman, Bico, Hamm and Melo,
 /// Phys. Rev. Lett. 110 (2013) 144301).
 struct Anisotropy {
-  static constexpr double low = -0.5, high = 1;  ///< of A, exclusive
+  static constexpr double low = -0.5, high = 1;  ///< of A, exclusive: exact, Takei and others 2013
   double strength = 0;                           ///< A
   double direction = 0;                          ///< theta_0, rad
   Spec spec();
@@ -21,10 +21,10 @@ struct Anisotropy {
   double smallest() const;  ///< of toughness
 };
 
-/// Factors with which the criterion of isotropic rock tells what the given factors do in anisotropic rock, for a tip
-/// whose path ends in the direction `ahead` (rad from the x axis): they have K_II = 0 where G/G_c is largest straight
-/// ahead; if not, their K_II vanishes behind the infinitesimal kink for which it is largest; and their K_eq over the
-/// toughness straight ahead is the root of the largest G/G_c. The same factors where there is no anisotropy.
+/// Translates the factors of a tip in anisotropic rock, whose path ends in the direction `ahead` (rad from the x axis),
+/// into those for which isotropic rock gives the same answer. They have K_II = 0 where G/G_c is largest straight ahead;
+/// otherwise their K_II vanishes behind the infinitesimal kink for which it is largest. Their K_eq over the toughness
+/// straight ahead is the root of the largest G/G_c. In isotropic rock they are the given factors.
 Sifs felt_sifs(const Sifs& sifs, double ahead, const Anisotropy& anisotropy);
 
 }  // namespace sprekk::fine_fracture

@@ -23,11 +23,11 @@ PlaceOnPath place_on_segment(const Point& anchor, const std::optional<Point>& st
 
 constexpr double place_of_corner = 0.75;  ///< along the arc from its anchor, over its length
 
-/// The corner of two straight pieces that stand for an arc from the anchor to `end` which begins in the direction
-/// `start`. It lies on the tangent at the end, so that the last piece has the direction of the arc there, and at such a
-/// place that T acts on K_II as it does along the arc: the integral of the direction over the square root of the
-/// distance from the tip is the same (to first order in the turn; Cotterell and Rice, Int. J. Fract. 16 (1980) 155). An
-/// arc that turns by more than 0.8 rad is not followed.
+/// The corner of two straight pieces that replace an arc from the anchor to `end` which begins in the direction
+/// `start`. It lies on the tangent at the end, so that the last piece has the direction of the arc there. Its place on
+/// the tangent makes T act on K_II as along the arc: the integral of the direction over the square root of the distance
+/// from the tip is the same, to first order in the turn (Cotterell and Rice, Int. J. Fract. 16 (1980) 155). An arc that
+/// turns by more than 0.8 rad is not followed.
 Point corner_of_arc(const Point& anchor, const Point& start, const Point& end);
 
 }  // namespace sprekk::fine_fracture

@@ -8,7 +8,7 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double shortest_edge = 0.5;     ///< of the coarse size
+constexpr double shortest_edge = 0.5;     ///< of the coarse size: as in the paper
 constexpr double shortest_at_bend = 0.1;  ///< of the coarse size
 constexpr double sharp_bend = 0.02;       ///< of the length of the path: what is lost without a bend
 

@@ -11,19 +11,20 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double least_first_advance = 0.05;   ///< of an increment: a shorter one gives no slope from two meshes
-constexpr double least_warm_advance = 1e-3;    ///< of an increment, where a slope is known
-constexpr double gain = 0.5;                   ///< of the norm of the best trial: what counts as progress
-constexpr double noise = 1e-5;                 ///< of that norm: steps of the factors that no mesh error explains
-constexpr int patience_with_noise = 4;         ///< trials without progress, below it
-constexpr int patience = 8;                    ///< trials without progress
-constexpr double much_worse = 2;               ///< of the norm of a trial over the best so far
-constexpr double of_meshes = 0.01;             ///< ln K: ten times what it differs by between two meshes
-constexpr double shorter = 0.5;                ///< steps after a trial that was much worse
-constexpr double of_direction = 0.1;           ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
-constexpr double slope_of_differences = 0.01;  ///< of H by an advance, see most_equal_front.hpp
-constexpr double least_of_difference = 1;      ///< the least weight of differences of advances in that norm
-constexpr double of_differences = 0.03;        ///< the tolerance of differences of advances over that of loads
+constexpr double least_first_advance = 0.05;  ///< of an increment: a shorter one gives no slope from two meshes
+constexpr double least_warm_advance = 1e-3;   ///< of an increment, where a slope is known
+constexpr double gain = 0.5;                  ///< of the norm of the best trial: what counts as progress
+constexpr double noise = 1e-5;                ///< of that norm: steps of the factors that no mesh error explains
+constexpr int patience_with_noise = 4;        ///< trials without progress, below it
+constexpr int patience = 8;                   ///< trials without progress
+constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
+constexpr double of_meshes = 0.01;            ///< ln K: ten times what it differs by between two meshes
+constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
+constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
+/// Of H by an advance, see most_equal_front.hpp: slopes of loads are 0.3 for short wings.
+constexpr double slope_of_differences = 0.01;
+constexpr double least_of_difference = 1;  ///< the least weight of differences of advances in that norm
+constexpr double of_differences = 0.03;    ///< the tolerance of differences of advances over that of loads
 
 }  // namespace
 

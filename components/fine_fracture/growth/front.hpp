@@ -28,8 +28,9 @@ struct FrontTip {
   double speed = 0;              ///< m/s, of the last step; 0 where the tip did not grow
   /// rad from the x axis: of the path at the tip, and not of a segment that was divided; for a bent one its chord
   double ahead = 0;
-  double turning = 0;    ///< rad/m, of `ahead` by the growth in the last step
-  bool is_bent = false;  ///< whether the segment begins in a fixed direction: its end turns twice as much as its chord
+  double turning = 0;  ///< rad/m, of `ahead` by the growth in the last step
+  bool is_bent =
+      false;  ///< whether the direction at its beginning is fixed: then its end turns twice as much as its chord
   Point start = Point::Zero();  ///< unit vector, this direction
   bool goes_on = false;         ///< grows in the first trial, whatever its load
   /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
@@ -47,20 +48,21 @@ struct FrontState {
 
 /// Tolerances and limits of the search.
 struct FrontOptions {
-  double mesh_error = 1e-3;           ///< of ln K between tips, see most_equal_front.hpp; 0: each K is the toughness
-  double load_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)|, or the excess, of growing tips
-  double direction_tolerance = 1e-6;  ///< |K_II/K_I| of growing tips
-  double increment = 0;               ///< m, the scale of advances
-  double shortest = 0;                ///< m, of a new segment
+  double mesh_error = 1e-3;  ///< of ln K between tips, see most_equal_front.hpp; 0: each K is the toughness
+  /// |ln(K_eq/K_IC)|, or the excess, of growing tips: far below the errors of the meshes.
+  double load_tolerance = 1e-7;
+  double direction_tolerance = 1e-6;                              ///< |K_II/K_I| of growing tips
+  double increment = 0;                                           ///< m, the scale of advances
+  double shortest = 0;                                            ///< m, of a new segment
   double longest_jump = std::numeric_limits<double>::infinity();  ///< m, of a tip in one step
-  int most_trials = 20;
+  int most_trials = 20;                                           ///< of a step, before it is cut: 8 to 10 are needed
 };
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
 ///   K_eq = K_IC and K_II = 0 at tips that grow,    K_eq <= K_IC at tips that do not,
-/// by a quasi-Newton method for the tips that grow; which do is decided anew after each trial. Of several tips K is
-/// known to the error of the mesh, and of all fronts within it the most equal one is sought (most_equal_front.hpp). Of
-/// several solutions it seeks the one next to the start of the step.
+/// by a quasi-Newton method for the tips that grow; which do is decided anew after each trial. K of several tips is
+/// known to the error of the mesh only: of all fronts within this error the one with the most equal advances is sought
+/// (most_equal_front.hpp). Of several solutions it seeks the one nearest to the start of the step.
 ///
 ///   Front front(…, states of the trial without growth, …);
 ///   while (front.verdict() == again) front.learn(states of the trial with lengths(), angles());
@@ -68,15 +70,15 @@ class Front {
  public:
   /// What follows from the last trial: another one, the end, or why there is none.
   enum class Verdict { again, found, too_far, failed };
-  /// `without_growth`: of the step without growth; for tips that go on that at its start. `slopes`: what an earlier
-  /// search has learnt (see slopes()), or an empty matrix.
+  /// `without_growth`: the states of the step without growth; for tips that go on, those at its start. `slopes`: what
+  /// an earlier search has learnt (see slopes()), or an empty matrix.
   Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_growth, const FrontOptions& options,
         double dt, const Eigen::MatrixXd& slopes = {});
 
   /// Whether the tip has an advance in the trial.
   bool grows(int tip) const { return grows_[tip]; }
   /// Whether its last segment is laid anew in the trial: it grows, or has come back to where it was. K_eq differs from
-  /// mesh to mesh, so a tip has to rest on the mesh on which it was found to.
+  /// mesh to mesh, so a tip that was found to rest stays on the mesh on which it was.
   bool is_laid(int tip) const { return is_laid_[tip]; }
   double length(int tip) const { return length_[tip]; }  ///< m, of the last segment, covered part included
   double angle(int tip) const { return angle_[tip]; }    ///< rad, from the x axis

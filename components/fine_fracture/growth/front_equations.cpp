@@ -10,7 +10,7 @@ namespace {
 
 constexpr double equal_advances = 1e-9;  ///< of an increment: differences below this are round-off
 constexpr double alike = 0.01;  ///< of ln K over one increment: if growth of another tip unloads a tip as its own does,
-                                ///< but for this, both are the same
+                                ///< except for this, both are the same
 
 }  // namespace
 

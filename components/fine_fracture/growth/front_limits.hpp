@@ -3,7 +3,7 @@
 
 namespace sprekk::fine_fracture {
 
-/// Slope of ln K_eq over one increment, as long as the search knows no other.
+/// Slope of ln K_eq over one increment, as long as the search knows no other: that of wings in the paper's section 5.2.
 inline constexpr double first_slope = -0.3;
 inline constexpr double first_part = 0.25;   ///< first trial of a tip without a known speed, over the increment
 inline constexpr double largest_turn = 0.3;  ///< rad, largest change of a direction between two trials

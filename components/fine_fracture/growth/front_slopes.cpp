@@ -19,7 +19,7 @@ double shear(const FrontState& state) { return std::atan2(state.sifs.k2, state.s
 
 double Front::excess(const FrontState& state) {
   if (state.excess) return *state.excess;
-  constexpr double least = 1e-3;
+  constexpr double least = 1e-3;  // for the logarithm of a load that is zero
   return std::log(std::max(least, state.load));
 }
 

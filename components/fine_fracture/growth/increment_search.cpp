@@ -30,7 +30,8 @@ double longest_that_turns_back(const Sifs& sifs) {
 
 constexpr const char* tension = "tension along the tip turns it away from where K_II vanishes";
 
-/// abs(phi) up to which estimates for the right direction hold.
+/// abs(phi) up to which estimates for the right direction hold: `direction_tolerance` and `arrest_tolerance` alone
+/// decide what is accepted.
 constexpr double nearly_right = 0.5;
 
 /// Part of the toughness: an increment that ends below it is longer than the tip would grow.
@@ -83,13 +84,13 @@ double IncrementSearch::first_length() const {
 
 /// A tip waits rather than grow by very little, but not where that would leave it well above the toughness.
 double IncrementSearch::shortest_length() const {
-  constexpr double part = 0.1;
+  constexpr double part = 0.1;  // of the usual shortest increment, far above the toughness
   return (options_.seeks_arrest() && !may_wait() ? part : 1) * options_.smallest_length();
 }
 
 /// Whether the tip is hardly above its toughness.
 bool IncrementSearch::may_wait() const {
-  constexpr double tolerances = 2;
+  constexpr double tolerances = 2;  // of the arrest: within two of them the tip is at its toughness
   return equivalent_sif(start_) <= (1 + tolerances * options_.arrest_tolerance) * toughness_;
 }
 
@@ -258,12 +259,13 @@ void IncrementSearch::correct_direction(const Sifs& end) {
   if (may_shorten && std::abs(directions_.back().phi) >= closed) {
     const double linear = shorter_.excess / (shorter_.excess - excess(end.k1));
     directions_.clear();
-    constexpr double shortest = 0.1, longest = 0.7;
+    constexpr double shortest = 0.1, longest = 0.7;  // of the length: bounds of an estimate
     return shorten(std::clamp(linear, shortest, longest));
   }
   const double present = angle_, root = root_of_phi();
   if (is_reversed()) return fix_direction("K_II grows with the turn that should remove it");
   if (root == present && !may_shorten) return fix_direction("no direction within the largest turn makes K_II vanish");
+  // K_II/K_I; and the part of a length whose direction is not found.
   constexpr double near_the_root = 0.2, about_a_third = 0.35;
   const int tries_with_one_length =
       std::abs(directions_.back().phi) < near_the_root ? options_.tries : std::max(2, options_.tries / 2);
@@ -292,7 +294,7 @@ double IncrementSearch::next_length(const std::optional<Length>& third) const {
 
 /// The next length to try as long as no increment is known to be too long.
 double IncrementSearch::longer_length() const {
-  constexpr double nearly = 0.7;
+  constexpr double nearly = 0.7;  // of the longest length: a longer estimate is not tried
   const double slope = (shorter_.excess - excess(equivalent_sif(start_))) / shorter_.length;
   const double next = shorter_.length - shorter_.excess / slope;
   const double longest = std::min(full_length_, 0.5 * (shorter_.length + ceiling_));
@@ -326,7 +328,7 @@ void IncrementSearch::change_length(double excess_here) {
 /// Whether the bracket is narrower than K_eq allows, since K_eq would change with more than the fifth power of the
 /// length: then one of its ends is no longer right.
 bool IncrementSearch::has_closed(double excess_here) const {
-  constexpr double steepest = 5;
+  constexpr double steepest = 5;  // power of the length with which K_eq may change
   return phase_ == Phase::searching && longer_ &&
          steepest * (longer_->length - shorter_.length) < std::abs(excess_here) * longer_->length;
 }

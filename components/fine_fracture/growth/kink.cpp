@@ -131,7 +131,7 @@ double load_after_kink(const Sifs& sifs, double length) {
 }  // namespace
 
 double longest_overloaded_kink(const Sifs& sifs, double toughness, double low, double high) {
-  constexpr int length_halvings = 40;  // of the range of lengths
+  constexpr int length_halvings = 40;  // of the range of lengths: a first estimate, which the search corrects
   if (load_after_kink(sifs, high) > toughness) return high;
   if (load_after_kink(sifs, low) <= toughness) return low;
   for (int k = 0; k < length_halvings; ++k) {

@@ -23,13 +23,14 @@ KinkFactors kink_factors(double angle);
 Sifs after_kink(const Sifs& sifs, double angle, double length = 0);
 
 /// The angle (rad, at most `limit` in size) of the straight kink of this length at whose end K_II vanishes: the root of
-/// after_kink next to 0 on the side opposite to K_II. Without a root, it is the largest angle on that side if K_II
-/// still decreases towards it, or else, under a tensile T that outweighs K_I (kinks that turn away from mode I), the
-/// angle of an infinitesimal kink. A length of 0 is the principle of local symmetry (Goldstein and Salganik 1974).
+/// after_kink next to 0 on the side opposite to K_II. Without a root it is the largest angle on that side, if K_II
+/// still decreases towards it. Otherwise, under a tensile T that outweighs K_I (kinks that turn away from mode I), it
+/// is the angle of an infinitesimal kink. A length of 0 is the principle of local symmetry (Goldstein and Salganik
+/// 1974).
 double local_symmetry_angle(const Sifs& sifs, double length = 0, double limit = 1.5);
 
-/// The longest kink (m, between `low` and `high`) in the direction of local symmetry at whose end K_eq has not come
-/// down to the toughness (Pa sqrt(m)), as long as the loads stay; `low` where there is none.
+/// The longest kink (m, between `low` and `high`) in the direction of local symmetry at whose end K_eq is still above
+/// the toughness (Pa sqrt(m)), for loads that stay; `low` where there is none.
 double longest_overloaded_kink(const Sifs& sifs, double toughness, double low, double high);
 
 /// d ln K_eq / d length (1/m) at the end of such a kink; not finite where K_eq vanishes.

@@ -10,7 +10,8 @@ namespace sprekk::fine_fracture {
 namespace {
 
 // How large the error of an entry of the first Jacobian may be.
-constexpr double load_by_advance = 0.5;              ///< of the derivative of the load by the tip's own advance
+/// Of the derivative of the load by the tip's own advance: by 198 trials of the paper's section 5.2.
+constexpr double load_by_advance = 0.5;
 constexpr double load_by_other_advance = 0.2;        ///< the same, by that of another tip
 constexpr double load_by_angle = 0.1;                ///< 1/rad
 constexpr double load_by_other_angle = 0.005;        ///< 1/rad
@@ -18,7 +19,8 @@ constexpr double direction_by_advance = 0.5;         ///< of the derivative of t
 constexpr double direction_by_other_advance = 0.05;  ///< the same, by that of another tip
 constexpr double direction_by_angle = 0.1;           ///< of the derivative of the direction by the tip's own angle
 constexpr double direction_by_other_angle = 0.003;   ///< the same, by that of another tip
-constexpr double least_slope = 0.01;                 ///< per increment and per rad, in the uncertainties
+/// Per increment and per rad, in the uncertainties: by second differences in the paper's section 5.2.
+constexpr double least_slope = 0.01;
 constexpr double curvature = 0.03;   ///< per increment² and rad²: what a Jacobian cannot tell of a residual
 constexpr double least_fresh = 0.1;  ///< of the uncertainty: a move with less of it was known from earlier moves
 constexpr double surprising = 5;     ///< standard deviations: a row that was so wrong, but known, forgets its moves

@@ -9,6 +9,7 @@ namespace sprekk::fine_fracture {
 namespace {
 
 constexpr double of_bend = 8.0 / 3;  ///< int theta/sqrt(x) dx over the root of the length, along an arc
+/// Around 1/2, that of a short kink (Cotterell and Rice 1980): bounds of estimates.
 constexpr double least_turn_slope = 0.3, steepest_turn_slope = 20;
 
 }  // namespace

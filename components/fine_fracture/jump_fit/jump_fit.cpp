@@ -39,7 +39,7 @@ std::string JumpFit::why_no_growth() const {
 /// The cells behind the tip, at most half of those up to the next kink, junction or end, where the field of the tip is
 /// another one, without those that are left out.
 FittedFactors JumpFit::factors_of(const Tip& tip) const {
-  constexpr double kink = 0.26;  // rad, between two cells
+  constexpr double kink = 0.26;  // rad, between two cells: 15 degrees
   const Fracture& fracture = mesh_.fractures[tip.end.fracture];
   const auto cell_from_tip = [&](int i) -> const FractureCell& {
     return mesh_.fracture_cells[fracture.first_cell + (tip.end.at_end ? fracture.cell_count - 1 - i : i)];

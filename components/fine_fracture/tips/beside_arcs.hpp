@@ -10,8 +10,8 @@ namespace sprekk::fine_fracture {
 /// The last segment of a path is an arc of two pieces on the fine level, and their chord, a straight cell, on the
 /// coarse one. A place between arc and chord lies on the other side of the fracture there; and beside a wall, the
 /// pressure of the pores on the coarse level follows the distance from the chord. So places in a strip along the chord,
-/// four heights of the arc wide to both sides, are moved across it: from the arc to the chord, from the rim nowhere,
-/// and linearly in between. Places on the arc itself belong to no side, and stay.
+/// four heights of the arc wide to both sides, are moved across it: at the arc onto the chord, at the rim of the strip
+/// not at all, and linearly in between. Places on the arc itself belong to no side, and stay.
 class BesideArcs {
  public:
   /// m: the ends of the chord, and the point where the pieces of the arc meet. An arc that turns back has no strip.

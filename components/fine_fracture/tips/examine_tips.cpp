@@ -78,7 +78,7 @@ bool Tips::is_far_above() const {
 }
 
 bool Tips::turns_sharply(const Tip& tip) const {
-  constexpr double sharp = 0.5;  // rad
+  constexpr double sharp = 0.5;  // rad: a sharper turn begins a new segment
   return tip.now.is_extendable && tip.now.is_evaluated && tip.now.load > 1 && tip.taken_over != examined_ &&
          std::abs(maximum_tangential_angle(felt(tip))) > sharp;
 }

@@ -13,9 +13,11 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double longest_advance = 1.5;  ///< of an increment, in one step
-constexpr double carried_on = 0.5;       ///< of a change between the last two steps: it has noise, too
-constexpr double largest_trend = 2;      ///< of the speed in this step over that in the last one
+/// Of an increment, in one step: fixed segments are longer than half an increment.
+constexpr double longest_advance = 1.5;
+/// Of a change between the last two steps: it has noise, too; by the paper's section 5.2.
+constexpr double carried_on = 0.5;
+constexpr double largest_trend = 2;  ///< of the speed in this step over that in the last one
 
 /// Speeds are means over the last two steps, because advances alternate: segments are divided every other step.
 double mean_of_steps(double last, double before) { return last != 0 && before != 0 ? (last + before) / 2 : last; }

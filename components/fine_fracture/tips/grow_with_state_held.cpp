@@ -23,7 +23,7 @@ Sifs times(const Sifs& sifs, double factor) {
 
 bool Tips::is_near(const Tip& tip, const Tip& other) const {
   // The effect of an increment decreases with the square of its length over the distance.
-  constexpr double far = 10;  // increments
+  constexpr double far = 10;  // increments: with 5 two collinear cracks were tried
   return tip.end.fracture == other.end.fracture ||
          (position(tip, tip.now.path) - position(other, other.now.path)).norm() < far * options_.growth.increment;
 }
@@ -42,7 +42,7 @@ double Tips::free_distance(const Tip& tip, const TipPath& path, const Point& to)
 
 /// m, of a path that is passed to the coarse level.
 double Tips::threshold(const Tip& tip) const {
-  constexpr double with_the_step = 0.25, after_it = 0.5;  // of an edge of the coarse level
+  constexpr double with_the_step = 0.25, after_it = 0.5;  // of an edge of the coarse level: as in the paper
   return surroundings_->propagation_threshold().value_or(grows_within_steps_ ? with_the_step : after_it) *
          tip.coarse_size;
 }

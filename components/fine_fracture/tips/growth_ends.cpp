@@ -97,7 +97,7 @@ void Tips::note_step(Notes& notes, const StepTime&) const {
 
 /// A square that lies in rock with slanted sides may be too small for its coarse mesh (check_size).
 void Tips::note_narrow_square(const Tip& tip, Notes& notes) const {
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-9;  // of the square: rounding of positions
   const std::vector<Point>& outline = tip.domain.geometry.outline;
   if (outline.empty()) return;
   const double reach = reach_in_rock(mesh_, outline, position(tip, {})),
@@ -114,7 +114,7 @@ void Tips::note_narrow_square(const Tip& tip, Notes& notes) const {
 
 /// Where walls touch at the tip of a wing they carry the load, and K_I = 0; those of the fine level are open there.
 void Tips::note_shear(const Tip& tip, Notes& notes) const {
-  constexpr double near = 0.9;     // to growth
+  constexpr double near = 0.9;     // to growth: the note comes before they turn
   constexpr double closed = 0.01;  // of the toughness: walls that touch have a K_I of this size from round-off
   const Sifs &sifs = tip.now.sifs, touching{0, sifs.k2, sifs.t_stress};
   const double toughness = this->toughness(tip), load = equivalent_sif(touching) / toughness;

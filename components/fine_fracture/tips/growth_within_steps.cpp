@@ -14,8 +14,9 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double wanted_advance = 0.85;  ///< of an increment, of the fastest tip in one step
-constexpr double wanted_turn = 0.08;     ///< rad, of the path at a tip in one step
+/// Of an increment, of the fastest tip in one step: tips that accelerate stay below `longest_advance`.
+constexpr double wanted_advance = 0.85;
+constexpr double wanted_turn = 0.08;  ///< rad, of the path at a tip in one step
 constexpr double least_turn =
     0.02;  ///< rad in the last two steps, below which the next one is not expected to turn far
 

@@ -47,6 +47,7 @@ std::optional<Tips::Joining> Tips::find_joining(const Tip& tip, const TipOutcome
   // Where another fracture passes by, its nearest point that is not behind the tip is wanted.
   const Point wanted = is_met ? free.where : from;
   const double to_side = is_met ? reach : distance_to_boundary(mesh_, from);
+  // 60 degrees, between the direction of a tip and the way to the other fracture.
   constexpr double widest_turn = std::numbers::pi / 3;
   std::vector<std::pair<double, const Ridge*>> candidates;
   for (const Ridge& point : mesh_.ridges) {

@@ -172,7 +172,7 @@ double Tips::estimated_load(const Tip& tip) const {
   const double estimate = Elasticity{lame.lambda, lame.shear}.plane_modulus() / 8 *
                           std::sqrt(2 * std::numbers::pi / distance) *
                           surroundings_->jump_at_tip(tip.end.fracture, tip.end.at_end);
-  constexpr double shear_to_equivalent = 1.25;
+  constexpr double shear_to_equivalent = 1.25;  // K_eq over the length of (K_I, K_II), at most
   const double lowest = toughness(tip.end, position(tip, tip.now.path)) * options_.anisotropy.smallest();
   return shear_to_equivalent * estimate / lowest;
 }

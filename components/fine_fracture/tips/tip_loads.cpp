@@ -84,7 +84,7 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     };
   // Jumps are asked for at the ends of segments, too. At a junction each segment has its own jump: the place is moved
   // into the segment by a rounding error.
-  constexpr double rounding = 1e-9;  // of a segment
+  constexpr double rounding = 1e-9;  // of a segment: round-off of lengths
   const double inside = mesh_.junctions.empty() ? 0 : rounding;
   loads.wall_jump = [this, &domain, arc, inside](int crack, int segment, double s) {
     return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s + inside * (0.5 - s)));

@@ -29,8 +29,8 @@ struct TipsOptions {
   Anisotropy anisotropy;
   std::string meeting = "join";
   double cavity = 4;           ///< radius in coarse mesh sizes
-  double cavity_growth = 0.3;  ///< of edges in it, m per m
-  double skip_below = 0.5;
+  double cavity_growth = 0.3;  ///< of edges in it, m per m: as `mesh.growth`
+  double skip_below = 0.5;     ///< of the toughness: tips with a smaller estimate are not evaluated
   GrowthOptions growth;
   void declare_size(Spec& spec);
   void declare_growth(Spec& spec);

@@ -11,8 +11,9 @@ namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double shorter_step = 0.5;        ///< the next attempt at a step that is too long
-constexpr double direction_over_load = 10;  ///< tolerance of K_II/K_I, over that of ln K_eq
+constexpr double shorter_step = 0.5;  ///< the next attempt at a step that is too long: as `shrink` of `time:`
+/// Tolerance of K_II/K_I, over that of ln K_eq: K_eq changes by the square of K_II/K_I.
+constexpr double direction_over_load = 10;
 
 }  // namespace
 

@@ -14,7 +14,7 @@ class RoughLaw : public HydraulicLaw {
   RoughLaw(double lowest, double roughness) : lowest_(lowest), roughness_(roughness) {}
   HydraulicAperture at(double aperture) const override {
     if (!(aperture > 0)) return {lowest_, 0};
-    constexpr double factor = 6, exponent = 1.5;
+    constexpr double factor = 6, exponent = 1.5;  // Lomize 1951, as above
     const double excess = factor * std::pow(roughness_ / aperture, exponent);
     const double value = aperture / std::cbrt(1 + excess);
     if (!(value >= lowest_)) return {lowest_, 0};

@@ -252,7 +252,7 @@ class FractureFlow : public Component,
   /// other cell meets this one the point counts as the centre. In a plane alone.
   struct Spot {
     int end;        ///< a ridge
-    double to_end;  ///< 0 to 1, but for what counts as equally near
+    double to_end;  ///< 0 to 1, except for what counts as equally near
   };
   Spot spot(int cell, const Point& at) const;
   /// From the centre of a cell to one of its ends, m^2/(Pa s), with derivatives by the apertures of cells.

@@ -19,8 +19,7 @@ struct ArmAperture {
 /// (half_cell_apertures); the same holds for two fractures of which one continues the other. The openings of other arms
 /// are independent of one another, since the rock between them may turn and slide. So a half cell without a counterpart
 /// has the aperture of its cell, which is of second order.
-///
-/// A closed arm would then never let fluid in. So each opening at a junction is taken for at least a tenth of the
+/// A closed arm would then never let fluid in. So each opening at a junction is taken to be at least a tenth of the
 /// widest one there. By the cubic law a closed arm then conducts a thousandth of the widest one: this hardly changes
 /// the flow through other arms, and in the closed arm itself it is an error of half a cell. An arm of one cell between
 /// two junctions consists of two such half cells, and conducts a thousandth all along; a smaller `mesh.fracture_size`
@@ -29,7 +28,7 @@ struct ArmAperture {
 /// `partners`: for each cell the place of the cell on the other side, or -1.
 inline std::vector<ArmAperture> junction_apertures(const std::vector<CellAperture>& cells,
                                                    const std::vector<int>& partners) {
-  constexpr double least_share = 0.1;
+  constexpr double least_share = 0.1;  // of the widest arm: a conductance of a thousandth
   const int count = static_cast<int>(cells.size());
   const int widest = static_cast<int>(
       std::max_element(cells.begin(), cells.end(),

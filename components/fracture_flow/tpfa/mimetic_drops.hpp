@@ -30,9 +30,9 @@ class MimeticDrops {
   /// cell.
   std::vector<std::pair<int, double>> at(int cell, int ridge) const;
 
-  /// The part of the two-point drop h_k q_k/T at a ridge k of a cell that has to stay for a positive definite sum, if
-  /// as much of its kind goes at each of the cell's junctions. The largest eigenvalue of what goes, as the sum M has
-  /// it, is at most the sum of h_k (M^-1)_kk over them, and h_k (M^-1)_kk <= 1 + (distance of the ridge · its
+  /// How much of the two-point drop h_k q_k/T at a ridge k of a cell has to stay, so that the sum is positive definite
+  /// when the same part is taken away at each of the cell's junctions. The largest eigenvalue of what goes, as the sum
+  /// M has it, is at most the sum of h_k (M^-1)_kk over them, and h_k (M^-1)_kk <= 1 + (distance of the ridge · its
   /// length)/A. 0 in cells with two-point fluxes alone.
   double least_kept(int cell, int ridge) const;
 

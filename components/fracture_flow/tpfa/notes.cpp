@@ -18,7 +18,7 @@ constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest
 constexpr double much_tighter = 0.01;
 constexpr double small_part_of_weight = 1e-2;  // of the fluid
 constexpr double part_that_may_vary = 1e-1;    // of its weight, where the density follows temperature and pressure
-constexpr double other_pressure = 1e-2;        // of the larger pressure at a wall
+constexpr double other_pressure = 1e-2;        // of the larger pressure at a wall: rounded pressures
 
 /// The sides that meet at the end of a fracture, as indices into Mesh::side_names: those of the outer faces, beside
 /// both walls of its last cell, that have the end as one of their ridges.
@@ -247,7 +247,7 @@ void FractureFlow::note_step(Notes& notes, const StepTime&) const {
                     aperture_.name(), narrowest, to_text(mesh_.fracture_cells[least].center)),
         -narrowest);
   if (!empty_) return;
-  constexpr double rounding = 1e-6;
+  constexpr double rounding = 1e-6;  // of the largest aperture, far above round-off of a balance
   Eigen::Index worst = 0;
   const double lacking = (empty_->now() - aperture_.now()).maxCoeff(&worst);
   if (lacking > rounding * aperture_.now().maxCoeff())

@@ -63,7 +63,9 @@ std::vector<std::pair<int, double>> shares_in_space(const Mesh& mesh, int cell, 
   return shares;
 }
 
-constexpr double equally_near = 2e-6;  // of half a cell: so far beyond its end a point may be its own
+// Of half a cell: so far beyond its end a point may be its own; as `nearest_fracture_cell` takes cells for equally
+// near.
+constexpr double equally_near = 2e-6;
 
 }  // namespace
 

@@ -20,8 +20,8 @@ struct Bernoulli {
   }
 };
 
-/// What the density of the fluid that enters is: that of its step, or that at the end of the step, which a stage of a
-/// scheme of second order takes (HeedsStages).
+/// Which density the fluid that enters has: the mean one of the step, or that at its end, as in a stage of a scheme of
+/// second order (HeedsStages).
 enum class EnteringDensity { of_step, at_end };
 
 /// The volume that a cell stores in a step, for each metre of its length (m), and its derivatives.

@@ -52,7 +52,7 @@ void FractureFlow::check_names() const {
 
 /// The pressure between two points with prescribed pressures is not resolved where both lie between the same centres.
 void FractureFlow::check_points_apart() const {
-  constexpr double at_centre = 1e-6;  // of a half cell
+  constexpr double at_centre = 1e-6;  // of a half cell: far above round-off
   struct Taken {
     const std::string* name;
     Point end;

@@ -9,7 +9,7 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-constexpr double round_off = 1e-12;
+constexpr double round_off = 1e-12;  // of the largest eigenvalue: a smaller negative one gains no energy
 /// Of the largest singular value: smaller ones are round-off, not kinks of the pressure.
 constexpr double bends = 1e-9;
 /// Continuity points on faces, from their middle to the node (continuity_point), in the order of their errors.

@@ -12,8 +12,9 @@
 namespace sprekk::matrix_flow {
 namespace {
 
+/// Of the size of the dissipation: what a factorization leaves, and no gain of energy.
 constexpr double round_off = 1e-11;
-/// For the root of an entry without any power.
+/// For the root of an entry without any power: no division by zero.
 constexpr double above_zero = 1e-300;
 /// Shares of the tip's part of the fluxes, tried in this order: the first that gains no energy is taken.
 constexpr std::array parts = {1.0, 0.75, 0.5, 0.25};

@@ -14,7 +14,7 @@ constexpr int terms = 1 + dimension + 2;
 }  // namespace
 
 bool is_isotropic(const Tensor& mobility) {
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-9;  // relative difference of given components with which rock is isotropic
   const Tensor deviator = mobility - mobility.trace() / dimension * Tensor::Identity();
   return mobility.trace() > 0 && deviator.lpNorm<Eigen::Infinity>() <= rounding * mobility.trace();
 }

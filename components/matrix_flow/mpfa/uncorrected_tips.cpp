@@ -48,10 +48,10 @@ void note_uncorrected_tips(Notes& notes, const std::string& name, const Mesh& me
   // In space a rim crosses borders of layers and has corners: only the larger part of the rims shows.
   if (found.uncorrected == 0 || (dimension == 3 && 2 * found.uncorrected < found.ends)) return;
   notes.add(name + ": tips without their singular flow",
-            fmt::format("'{}' takes the pressure for linear around {} of {} tips of fractures, the first at {} ({}): "
-                        "the resistance to flow from or around a fracture comes out too small or too large, by some "
-                        "6, 3 and 1.5 % with 5, 10 and 20 cells on it; use a smaller mesh.fracture_size",
-                        name, found.uncorrected, found.ends, to_text(found.first), found.reason),
+            fmt::format("the correction of the flow around {} of {} tips of fractures in '{}' is switched off, the "
+                        "first at {} ({}): the resistance to flow from or around a fracture is off by about 6, 3 and "
+                        "1.5 % with 5, 10 and 20 cells on it. Use a smaller mesh.fracture_size",
+                        found.uncorrected, found.ends, name, to_text(found.first), found.reason),
             found.uncorrected);
 }
 

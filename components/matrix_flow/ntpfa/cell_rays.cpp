@@ -10,8 +10,9 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-constexpr double parallel = 1e-10;     // sine of the angle of two rays that are parallel
-constexpr double negative = 1e-12;     // part of a vector: a weight that is not below zero but for round-off
+// Sine of the angle of two rays that are parallel: the weights would be round-off.
+constexpr double parallel = 1e-10;
+constexpr double negative = 1e-12;     // part of a vector: a weight that is not below zero except for round-off
 constexpr double for_distance = 1e-3;  // by how much a far point costs more than a near one in the same direction
 constexpr double alike = 0.01;         // relative difference of mobilities
 

@@ -32,9 +32,10 @@ using RaySum = std::vector<std::pair<double, Ray>>;
 /// - To the centre of a face with a prescribed pressure.
 /// - Along the conormal to the line of a face with a prescribed flux: this flux is the change of pressure there.
 ///
-/// If no two of them have the vector between them: also to the ends of faces with a pressure, against the conormals of
-/// faces with a flux, and to the centres of cells that share a node and have a similar mobility, and of their
-/// faces with a pressure; at last to those of all cells that share a node.
+/// Where no two of these enclose the vector there are more:
+/// - to the ends of faces with a pressure, and against the conormals of faces with a flux;
+/// - to the centres of cells that share a node and have a similar mobility, and of their faces with a pressure;
+/// - at last to the centres of all cells that share a node.
 class CellRays {
  public:
   CellRays(const Mesh& mesh, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions,

@@ -37,7 +37,7 @@ LumpedFluxMass lumped_flux_mass(const Mesh& mesh, int cell, const Tensor& mobili
 /// dt/(S V) 1 1^T beside M does, so what a short step lacks of it is added to M:
 /// - triangles, tetrahedra, wedges: `added` = `until` 1 1^T, with the least number `until` for which M + added has an
 ///   inverse without positive entries off the diagonal; in triangles without obtuse angles that is the lumped matrix
-///   but for the point of p. It does not exist from a right angle on, and is at most 3/(1^T M^-1 1)
+///   except for the point of p. It does not exist from a right angle on, and is at most 3/(1^T M^-1 1)
 ///   (`most_resistance`).
 /// - quadrilaterals, hexahedra: `added` completes M to the lumped matrix, `until` follows from pairs of opposite faces.
 /// Both keep linear pressures exact, with p at the centre of the cell. In triangles, steady flow without sources is as

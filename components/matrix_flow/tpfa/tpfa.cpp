@@ -21,7 +21,7 @@ double half_transmissibility(const Mesh& mesh, const Tensor& mobility, int cell,
 /// Whether the flux of a linear pressure is exact between the centre of a cell and that of its face: K n is along them.
 /// In a plane it is enough that K n is along n: that triangles are not orthogonal is no surprise, and errs less.
 bool is_consistent(const Mesh& mesh, const Tensor& mobility, int cell, int face) {
-  constexpr double round_off = 1e-6;  // of the distance
+  constexpr double round_off = 1e-6;  // of the distance: round-off of coordinates
   const Point& normal = mesh.face_normal[face];
   const Point conducted = mobility * normal;
   const Point way = dimension == 2 ? normal : Point(mesh.face_center[face] - mesh.cell_center[cell]);

@@ -12,7 +12,7 @@ namespace sprekk::poromechanics {
 
 namespace {
 
-constexpr double kept_of_bending = 2;
+constexpr double kept_of_bending = 2;  // how much stiffer faces are, at first order, than together in their cell
 
 /// The largest work of displacements of faces together, over that of each face or group alone: from 1 to the number of
 /// faces.

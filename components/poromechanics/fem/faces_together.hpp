@@ -10,9 +10,9 @@
 
 namespace sprekk::poromechanics {
 
-/// The stiffness with which the functions of faces are displaced: each as if it stood alone, those of a group
-/// (groups_at_tips) together. Cell by cell it is at least that of all functions of faces of the cell, so that what is
-/// left for the nodes is positive definite; within a cell whose faces are all of one group it is just that.
+/// The stiffness against which forces displace the functions of faces: each function as if it stood alone, those of a
+/// group (groups_at_tips) together. In each cell it is at least that of all its functions of faces together, so that
+/// what is left for the nodes is positive definite; where all faces of a cell are of one group, it is equal to that.
 class FacesTogether {
  public:
   FacesTogether(const RawDisplacement& raw, std::vector<int> groups);

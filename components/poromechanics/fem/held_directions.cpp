@@ -22,7 +22,8 @@ struct Direction {
 };
 
 constexpr double same_side = 0.5;  // sine of the angle between faces of one curved side; more is a corner
-constexpr double parallel = 1e-3;  // sine of the angle between directions that hold as one
+// Sine of the angle between directions that hold as one: far above round-off of normals.
+constexpr double parallel = 1e-3;
 
 double sine(const Point& a, const Point& b) { return (rotated(a).transpose() * b).norm() / (a.norm() * b.norm()); }
 

@@ -10,7 +10,7 @@ namespace sprekk::poromechanics {
 /// For each face the tip (a node) at one of its ends, or none. Cells of second order have the middle node of such a
 /// face a quarter of the face away from the tip: along rays from the tip displacements then have a part like the square
 /// root of the distance, and strains one like its inverse (Barsoum 1976; Henshell and Shaw 1975). In space all are
-/// none. In space all are none.
+/// none.
 std::vector<int> tips_of_faces(const Mesh& mesh);
 
 /// Whether a face of the cell ends at a tip.

@@ -34,10 +34,10 @@ class Mpsa : public Rock {
     if (const UncorrectedEnds found = uncorrected_tips(mesh(), stiffness_of_cells()); found.uncorrected > 0)
       notes.add(
           name() + ": tips without their singular field",
-          fmt::format("'{}' takes displacements for linear around {} of {} tips of fractures, the first at {} ({}): "
-                      "slip and opening come out too large, by some 11, 6.5 and 2.7 % with 10, 20 and 40 cells on the "
-                      "fracture; use a smaller mesh.fracture_size",
-                      name(), found.uncorrected, found.ends, to_text(found.first), found.reason),
+          fmt::format("the correction of displacements around {} of {} tips of fractures in '{}' is switched off, the "
+                      "first at {} ({}): slip and opening are overestimated by about 11, 6.5 and 2.7 % with 10, 20 and "
+                      "40 cells on the fracture. Use a smaller mesh.fracture_size",
+                      found.uncorrected, found.ends, name(), to_text(found.first), found.reason),
           found.uncorrected);
   }
 };

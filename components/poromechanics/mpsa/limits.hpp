@@ -11,11 +11,10 @@ struct MpsaLimits {
   /// and a half errors change little (docs/numerics/poromechanics.md); far below, rotations are hardly coupled.
   double rotation_strength = 0.25;
   /// How well the conditions on the two faces of a single subcell determine a component of its gradient, as the sine of
-  /// an angle: below the first value the conditions are not used for it, above the second they alone are.
+  /// an angle: below `vague` they are not used for it, above `certain` nothing else is.
   double vague = 0.1, certain = 0.5;
   /// Smallest pivot, of a row, below which a stiff subcell among very soft ones turns freely (media that differ by
-  /// 1e6), and how strongly it is then coupled to the rotation of the soft ones, of what subcells alike are: they
-  /// hardly resist.
+  /// 1e6); and how strongly it is then coupled to their rotation, of what equal subcells are: soft ones hardly resist.
   double turns_freely = 1e-6, held_by_soft = 0.1;
   /// Of the smaller A/M (see VolumeExchange): where subcells are equal, more could let volume overshoot.
   double exchange = 0.25;

@@ -83,7 +83,7 @@ class LocalStresses {
                     const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions);
   void find_gradients(const InteractionRegion& region);
   void find_forces(const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
-  /// What is prescribed along axes of a face's own holds, whatever the local problem makes of it.
+  /// Values that are prescribed along a face's own axes hold exactly, whatever the local problem gives.
   void prescribe_forces(const InteractionRegion& region, const std::vector<FaceConditions>& conditions);
   void exchange_volumes(const Mesh& mesh, const InteractionRegion& region, const std::vector<Stiffness>& stiffness);
 

@@ -22,7 +22,7 @@ Complex amplitude(int term) { return term % 2 == 0 ? Complex(0.5, 0) : Complex(0
 }  // namespace
 
 bool is_isotropic(const Stiffness& c) {
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-9;  // relative difference of given components with which rock is isotropic
   const double near = rounding * c(0, 0);
   return std::abs(c(0, 0) - c(1, 1)) < near && std::abs(c(0, 2)) < near && std::abs(c(1, 2)) < near &&
          std::abs(c(0, 0) - c(0, 1) - 2 * c(2, 2)) < near;

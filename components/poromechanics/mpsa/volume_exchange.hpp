@@ -10,8 +10,8 @@
 
 namespace sprekk::poromechanics {
 
-/// Where tractions agree across a face, so does q = M e − s (e dilation, M P-wave modulus, s isotropic stress) but for
-/// what changes along the face. In even rock without body force
+/// Where tractions agree across a face, so does q = M e − s (e dilation, M P-wave modulus, s isotropic stress) except
+/// for what changes along the face. In even rock without body force
 ///   div(C : grad u) = grad s  means  grad q = G curl r  (r = twice the rotation),
 /// so q is harmonic and as smooth as r, however rough s is. A local problem returns it with errors of the size of a
 /// subcell times its slope, which alternate around the node. So across its inner subfaces neighbours exchange the

@@ -10,7 +10,7 @@
 namespace sprekk {
 namespace {
 
-constexpr std::size_t longest_path = 64;
+constexpr std::size_t longest_path = 64;  // keys: no scene is deeper (yaml_builder.cpp)
 
 Node::Entry* entry_of(Node& map, const std::string& key) {
   for (Node::Entry& entry : map.entries) {

@@ -5,8 +5,8 @@
 namespace sprekk {
 namespace {
 
-constexpr int most_nodes = 200'000;
-constexpr int greatest_depth = 64;
+constexpr int most_nodes = 200'000;  // no scene is larger, and a file from a stranger may be
+constexpr int greatest_depth = 64;   // the same, for the stack
 
 int size_of(const Node& node) {
   int size = 1;

@@ -10,7 +10,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double same_place = 1e-9;  // of the size of a cell
+constexpr double same_place = 1e-9;  // of the size of a cell: above round-off, below what shows
 
 using Shares = std::vector<std::pair<int, double>>;
 

@@ -21,9 +21,9 @@ struct PointSource {
 /// x. At the centre of a cell this is the cell alone. The cells are those around a node, and the weights mean value
 /// coordinates (Floater, Computer Aided Geometric Design 20 (2003) 19), all of them positive. Beyond the last centres
 /// before a side, a fracture, or cells that may not take part, x counts as the nearest point on the lines between the
-/// centres of neighbours: a field there is not known, and to extend it in a straight line from the last centres would
-/// give negative weights, with which a source draws from cells and the value lies outside of all that are around.
-/// Without shares outside of the mesh. The cell at x may take part in any case.
+/// centres of neighbours. A field is not known there, and extending it in a straight line would give negative weights:
+/// a source would draw from cells, and a value could lie outside of all around it. Without shares outside of the mesh.
+/// The cell at x may take part in any case.
 PointSource point_source(const Mesh& mesh, const Point& x, const std::function<bool(int cell)>& may_share);
 
 }  // namespace sprekk

@@ -13,7 +13,7 @@ namespace sprekk {
 namespace {
 
 /// Cosine of the angle (60 degrees) between the directions ahead from which on two ends belong to different rims of a
-/// fracture, whose fields are not the same one.
+/// fracture, whose fields are not the same one: opposite parts of a rim compete for a node, neighbours do not.
 constexpr double same_rim = 0.5;
 
 /// What a node of a rim belongs to.

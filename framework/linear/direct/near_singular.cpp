@@ -43,7 +43,7 @@ void remove_from(Vector& v, const std::vector<Vector>& known) {
 /// terms cancel, up to 1 where they do not. Only columns in which a vector is clearly not zero count, since round-off
 /// of the others may exceed the entries of a sum.
 Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
-  constexpr double doubtful = 1e-8;
+  constexpr double doubtful = 1e-8;  // square root of round-off
   const int sums = static_cast<int>(system.sums.size()), count = static_cast<int>(vectors.size());
   SPREKK_EXPECT(rows.rows() == static_cast<Eigen::Index>(system.rows.size()), rows.rows(), system.rows.size());
   Vector values = Vector::Zero(sums * count), sizes = values;
@@ -72,7 +72,7 @@ Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows,
 
 /// The combination of the vectors for which all sums of balances are zero; empty if there is none.
 Vector without_resistance(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
-  constexpr double cancelled = 1e-2;
+  constexpr double cancelled = 1e-2;  // of the terms: between round-off and 1
   if (system.sums.empty()) return vectors.back();
   Eigen::FullPivLU<Eigen::MatrixXd> lu(resistance(system, rows, vectors));
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(1);
@@ -90,11 +90,11 @@ Vector without_resistance(const LinearSystem& system, const SparseMatrix& rows, 
 }
 
 /// The largest |A v| of a row over its terms |A| |v|, among rows in which v is noticeable. Where A has a null vector
-/// but for the rounding of its entries, this is round-off for it in every row, whatever the scales of rows and columns.
-/// A norm alone would take a vector for a null vector that is none in rows which are scaled down. Terms below 1e-4 of
-/// the largest do not count, since a vector found by inverse iteration is inaccurate there.
+/// except for the rounding of its entries, this is round-off for it in every row, whatever the scales of rows and
+/// columns. A norm alone would take a vector for a null vector that is none in rows which are scaled down. Terms below
+/// 1e-4 of the largest do not count, since a vector found by inverse iteration is inaccurate there.
 double worst_row(const SparseMatrix& rows, const Vector& v) {
-  constexpr double noticeable = 1e-4;
+  constexpr double noticeable = 1e-4;  // as above
   const Vector residual = (rows * v).cwiseAbs(), terms = rows.cwiseAbs() * v.cwiseAbs();
   const double largest = parallel::max(terms.size() > 0 ? terms.maxCoeff() : 0.0);
   double worst = 0;

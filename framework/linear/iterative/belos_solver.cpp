@@ -143,9 +143,11 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   if (b_norm == 0) return report;
 
   Vector r = b, y = x;
+  // The loop below restarts GMRES from the true residual.
   constexpr double safely = 0.5;  // of the tolerance, since GMRES tests another norm than the loop below
   double r_norm = b_norm, wanted_norm = safely * tolerance_ * b_norm;
   BlockResidual measured;
+  // Backward error of a block that is round-off; residual of all with which it may be.
   constexpr double rounding = 1e-14, useless = 1e-3;
   const auto is_converged = [&] {
     const bool is_at_rounding = measured.largest_ratio <= rounding && r_norm <= useless * b_norm;
@@ -172,7 +174,7 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     r_norm = std::sqrt(parallel::sum(r.squaredNorm()));
     const BlockResidual before = measured;
     measured = measure(y, b, r);
-    constexpr double hardly_better = 0.5;
+    constexpr double hardly_better = 0.5;  // a smaller gain ends it, as usual for iterative refinement
     const bool stalls = restart > 0 && !(measured.largest_ratio < hardly_better * before.largest_ratio);
     if (is_converged() || stalls) break;
     wanted_norm = safely * tolerance_ * std::min(b_norm, measured.smallest_size);

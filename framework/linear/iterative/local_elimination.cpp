@@ -28,7 +28,7 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
     low = low.size() == 0 ? lowest : low.cwiseMin(lowest);
     high = high.size() == 0 ? highest : high.cwiseMax(highest);
   }
-  constexpr double same_place = 1e-8;  // of the extent of the fractures
+  constexpr double same_place = 1e-8;  // of the extent of the fractures: far below a cell
   const double spacing = low.size() == 0 ? 0 : (high - low).maxCoeff() * same_place;
 
   std::map<CellKey, std::vector<int>> cells;

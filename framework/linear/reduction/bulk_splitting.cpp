@@ -36,7 +36,7 @@ void multiply(const SparseMatrix& a, const Vector& x, Vector& product, Vector& s
 /// the terms of its own row allow: a jump that is zero is a difference of displacements that are not, and its round-off
 /// is no error.
 Vector least_sizes(const SparseMatrix& a, const Vector& size) {
-  constexpr double small = 1e-4;
+  constexpr double small = 1e-4;  // of what the terms of its row allow: smaller unknowns are zero
   Vector determined = Vector::Zero(a.cols()), least = Vector::Zero(a.rows());
   for (int row = 0; row < a.rows(); ++row) {
     double largest = 0;

@@ -16,7 +16,7 @@
 namespace sprekk {
 namespace {
 
-constexpr std::size_t kept_bulks = 2;
+constexpr std::size_t kept_bulks = 2;         // steps of two sizes alternate
 constexpr double most_schur_entries = 1.5e8;  ///< largest number of entries that are always kept, 1.2 GB
 
 bool same_values(const SparseMatrix& a, const std::vector<double>& kept) {
@@ -81,12 +81,12 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
   return reduced;
 }
 
-/// Whether no equation on interfaces responds to an unknown of the bulk that was left to them, but for the round-off of
-/// what its cell exchanges with the rest of its bulk: then neither the fractures nor what is stored hold that part of
-/// the bulk, or too weakly to be seen after the elimination.
+/// Whether no equation on interfaces responds to an unknown of the bulk that was left to them, except for the round-off
+/// of what its cell exchanges with the rest of its bulk: then neither the fractures nor what is stored hold that part
+/// of the bulk, or too weakly to be seen after the elimination.
 bool is_lost(const BulkSplitting& split, const SparseMatrix& reduced,
              const BulkSchurComplement::RowMatrix& schur_rows) {
-  constexpr double lost = 1e-13;  // of the terms of an entry, each of them a sum of many
+  constexpr double lost = 1e-13;  // of the terms of an entry, each of them a sum of many: some hundred roundings
   std::vector<char> is_felt(split.local_size(), 0);
   int schur_row = 0;
   for (int row = 0; row < reduced.rows(); ++row) {
@@ -293,7 +293,7 @@ LinearReport CondensedSolver::solve(const Vector& b_rows, Vector& x) {
 /// solutions are not refined either, and a run that is continued from a checkpoint, whose first solution comes later,
 /// must have the same bits as a run without interruption.
 bool CondensedSolver::verifies(const Vector& b_bulk, const Vector& b_local, const Vector& bulk, const Vector& local) {
-  constexpr double acceptable = 1e-9;
+  constexpr double acceptable = 1e-9;  // ten times what a whole solve may have
   const BulkSplitting& split = *splitting_;
   const double error = split.backward_error(bulk, local, b_bulk, b_local);
   if (error <= acceptable || !std::isfinite(error)) return error <= acceptable;

@@ -53,7 +53,7 @@ class Parts {
     std::vector<int> chosen;
     for (const Part& part : parts_) {
       if (part.is_held) continue;
-      constexpr double hardly_moves = 1e-6;   // motion that counts as none, over the largest one
+      constexpr double hardly_moves = 1e-6;   // motion that counts as none, over the largest one: the choice is free
       constexpr double much_preferred = 1e3;  // larger than ratios of motions by the shapes of parts
       constexpr double is_fixed = 0.1;        // of the largest singular value of an entity's motions
       const Eigen::JacobiSVD<Modes> svd(part.triangle, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -164,7 +164,7 @@ class Parts {
     }
     if (part == nullptr || size == 0) return;
     add(w / size, part->triangle);
-    constexpr int between_looks = 32;
+    constexpr int between_looks = 32;  // balances: a look is cheap beside them
     if (++part->balances % between_looks == 0)
       part->is_held = Eigen::JacobiSVD<Modes>(part->triangle).singularValues().minCoeff() > resists;
   }

@@ -46,7 +46,7 @@ std::vector<int> sets_of_blocks(const LinearSystem& system, int& sets) {
 /// For every unknown whether its entity is lone: the rows and columns of all its unknowns have a diagonal entry alone.
 /// Empty where few are.
 std::vector<char> lone_unknowns(const LinearSystem& system) {
-  constexpr double worth_it = 0.1;  // of all unknowns
+  constexpr double worth_it = 0.1;  // of all unknowns: it copies the matrix once
   const SparseMatrix& a = system.local;
   std::vector<int> entries(a.cols(), 0);
   for (int row = 0; row < a.rows(); ++row)

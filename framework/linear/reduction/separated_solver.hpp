@@ -13,9 +13,8 @@ namespace sprekk {
 /// Solves decoupled parts of a system apart, in one process. Parts are sets of blocks between which the matrix has no
 /// entry: flow and deformation without a coupling, for example. Each part has a factorization of its own; a part whose
 /// right-hand side is zero is not solved. A system of one part is passed to its solver as it is.
-///
-/// Entities whose rows and columns have a diagonal entry alone, such as cells of rock in which nothing flows, are in no
-/// part, where there are many of them: orderings take more time for them than for others.
+/// Many entities whose rows and columns have a diagonal entry alone, such as cells of rock in which nothing flows, are
+/// left out of the parts: orderings would take more time for them than for others.
 class SeparatedSolver final : public LinearSolver {
  public:
   using Maker = std::function<std::unique_ptr<LinearSolver>()>;

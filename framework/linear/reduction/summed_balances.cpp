@@ -75,9 +75,8 @@ std::vector<int> columns_outside(const SparseMatrix& a, int first, int end, std:
   return found;
 }
 
-/// Whether the flux at a row leads from the rows [first, end) to local unknowns whose own rows do not resist a change
-/// of theirs, such as the potential of an entity whose flux is given: these unknowns follow the change, and do not
-/// determine the constant.
+/// Whether the flux at a row leads from the rows [first, end) to local unknowns with a zero diagonal, such as the
+/// potential of an entity whose flux is given: these follow any change, and do not determine the constant.
 bool leads_to_what_follows(const SparseMatrix& a, int flux, int first, int end, const std::vector<char>& is_local) {
   bool leads = false;
   for (SparseMatrix::InnerIterator entry(a, flux); entry; ++entry) {
@@ -91,7 +90,7 @@ bool leads_to_what_follows(const SparseMatrix& a, int flux, int first, int end, 
 
 /// Whether adding `factor` times a row to a sum of rows leaves no entry of that row.
 bool cancels(const SparseMatrix& a, int row, double factor, const std::map<int, double>& sum) {
-  constexpr double round_off = 1e-15;
+  constexpr double round_off = 1e-15;  // of the entry: what a flux that another row gives may leave in the sum
   for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
     if (entry.value() == 0) continue;
     const auto own = sum.find(static_cast<int>(entry.col()));
@@ -198,7 +197,7 @@ std::vector<PossibleSum> possible_sums(const SparseMatrix& rows, const std::vect
 }
 
 std::vector<std::vector<int>> exchanging_rows(const SparseMatrix& rows, const std::vector<UnknownBlock>& blocks) {
-  constexpr double weak = 1e-6, closed = 1e-3;
+  constexpr double weak = 1e-6, closed = 1e-3;  // storage, and conductance to other groups, over what rows exchange
   SPREKK_EXPECT(rows.rows() == rows.cols(), rows.rows(), rows.cols());
   std::vector<std::vector<int>> groups;
   const std::vector<char> is_local = rows_of_interfaces(blocks, rows.cols());

@@ -15,14 +15,13 @@ namespace sprekk {
 /// entries that cancel to the bit, as what leaves one row enters the other. Where C is above S/eps, the sum of the rows
 /// determines the constant mode of the potentials well, but elimination adds S to C and loses S. Here the sum of such
 /// rows, in which D is absent, takes the place of the first of them: the equations are equivalent, and S keeps its
-/// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A flux out of
-/// the rows that another row gives, such as the rate of a well, does not count for that, and is taken out of the sum by
-/// adding a multiple of that row. A sum that is zero belongs to a singular matrix, whose constant mode nothing holds.
-///
-/// In systems with a sum the first row of every group that may be summed has all columns of such a sum beside its own,
-/// as zeros where it has no such entry: the pattern does not change with the groups that values single out, and so one
-/// ordering serves all. It depends on no earlier system, so that a run that is continued has the bits of one that was
-/// not interrupted.
+/// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A flux that
+/// another row prescribes, such as the rate of a well, does not count as leading out: a multiple of that row takes it
+/// out of the sum. A sum that is zero belongs to a singular matrix, whose constant mode nothing holds.
+/// In systems with a sum, the first row of every group that may be summed gets all columns of such a sum, as zeros
+/// where it has no entry. So the pattern does not depend on which groups the values single out, and one ordering serves
+/// all systems. It depends on no earlier system, so that a run that is continued has the bits of one that was not
+/// interrupted.
 class SummedBalances final : public LinearSolver {
  public:
   explicit SummedBalances(std::unique_ptr<LinearSolver> solver);

@@ -100,7 +100,7 @@ int PointLocation::cell_at(const Point& x) const {
 
 int PointLocation::cell_at(const Point& x, int guess) const {
   // From cell to cell across the first face that has the point on its other side, until the point is so far inside that
-  // no other cell counts it as its own.
+  // no other cell counts it as its own: the cell is usually a few steps away.
   constexpr int most_steps = 12;
   int cell = guess;
   for (int step = 0; step < most_steps && cell != none; ++step) {

@@ -36,7 +36,7 @@ class PointLocation {
 int find_fracture(const Mesh& mesh, const std::string& name);
 
 /// The fracture cell that is nearest to a point, of those that count (all without `counts`); of cells that are equally
-/// near, but for a millionth of their length, the first. none where no cell counts.
+/// near, except for a millionth of their length, the first. none where no cell counts.
 int nearest_fracture_cell(const Mesh& mesh, const Point& x, const std::function<bool(int cell)>& counts = {});
 
 }  // namespace sprekk

@@ -12,8 +12,8 @@
 namespace sprekk {
 namespace {
 
-constexpr double smallest_area_kept = 0.2;
-constexpr int most_halvings = 6;
+constexpr double smallest_area_kept = 0.2;  // of a cell: no cell may turn over
+constexpr int most_halvings = 6;            // of a move that would
 
 double area(const RawMesh& mesh, int cell) { return smallest_corner_area(mesh.nodes, mesh.cells[cell]); }
 

@@ -7,11 +7,16 @@
 
 namespace sprekk {
 
-/// The wanted edge length, m. It is the smallest of: the far size; for each fracture its size plus growth times the
-/// distance from it; for each fracture end inside the box the tip size plus growth times the distance from the end; for
-/// each piece of a fracture, between the points where it bends or meets other lines, that is shorter than a tenth of
-/// these lengths, its own length, and for each gap that is narrower than these lengths, and no longer than gap_length
-/// allows, its width over gap_edges, plus growth (at most a half) times the distance.
+/// The wanted edge length, m. It is the smallest of
+/// - the far size;
+/// - for each fracture its size plus growth times the distance from it;
+/// - for each fracture end inside the box the tip size plus growth times the distance from the end;
+/// - for each short piece of a fracture its length plus growth (at most a half) times the distance. A piece lies
+/// between
+///   points where the fracture bends or meets other lines; it is short below a tenth of the lengths above;
+/// - for each narrow gap its width over gap_edges, plus growth (at most a half) times the distance. A gap is narrow
+/// below
+///   the lengths above, and no longer than gap_length allows.
 class SizeField {
  public:
   /// The geometry is that of a box and valid, except that sizes may still be absurdly small.

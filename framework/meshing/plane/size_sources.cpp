@@ -8,7 +8,7 @@
 namespace sprekk {
 namespace {
 
-constexpr int in_a_block = 8;
+constexpr int in_a_block = 8;  // sources that are looked at one by one
 /// Round-off of a bound, which must not hide the source itself.
 constexpr double rounding = 1e-12;
 

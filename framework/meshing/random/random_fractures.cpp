@@ -41,7 +41,7 @@ class DecimalGrid {
   }
 
  private:
-  static constexpr int digits = 6;
+  static constexpr int digits = 6;  // below the box: far below a cell
   int exponent_;
   double power_ = 1;
 };

@@ -82,7 +82,7 @@ Spec length_spec(const std::shared_ptr<LengthInput>& input, LengthLaw& law) {
     law.kind = LengthLaw::Kind::lognormal;
     law.median = *input->median;
     law.deviation = *input->deviation;
-    constexpr double hardly_any = 1e-3;
+    constexpr double hardly_any = 1e-3;  // of a law of lengths: bounds that keep less are a mistake
     const double share = lognormal_share(law.longest, law.median, law.deviation) -
                          lognormal_share(law.shortest, law.median, law.deviation);
     if (share < hardly_any)

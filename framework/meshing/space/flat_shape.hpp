@@ -10,7 +10,7 @@ namespace sprekk {
 /// A place in a plane, m.
 using FlatPoint = Eigen::Vector2d;
 
-/// A flat polygon in space. An ellipse is taken for a polygon with many corners on it.
+/// A flat polygon in space. An ellipse is treated as a polygon with many corners.
 class FlatShape {
  public:
   /// The plane of the corners: through their mean, with the area vector of the polygon. Three corners at least.

@@ -9,7 +9,7 @@ namespace sprekk {
 namespace {
 
 constexpr int samples_of_rim = 192;   // of a function along a rim, between which it has one minimum at most
-constexpr double same_angle = 1e-13;  // rad, to which a minimum is found
+constexpr double same_angle = 1e-13;  // rad, to which a minimum is found: round-off
 
 }  // namespace
 

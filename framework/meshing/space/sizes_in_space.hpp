@@ -7,9 +7,10 @@
 
 namespace sprekk {
 
-/// The wanted edge length, m. It is the smallest of: the far size; for each fracture its size plus growth times the
-/// distance from it, and the same for parts of sides; for the rim of each fracture, where it lies inside of the box,
-/// the tip size plus growth times the distance from the rim.
+/// The wanted edge length, m. It is the smallest of
+/// - the far size;
+/// - for each fracture, and each part of a side, its size plus growth times the distance from it;
+/// - for the rim of each fracture, where it lies inside of the box, the tip size plus growth times the distance.
 class SizesInSpace {
  public:
   /// The geometry is that of a box and valid, except that sizes may still be absurdly small.

@@ -169,7 +169,7 @@ RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options) {
   Grid grid{geometry.box, options.cells, options.shape, {0, 0, 0}};
   for (int axis = 0; axis < 3; ++axis) {
     if (grid.cells[axis] > 0) continue;
-    constexpr double rounding = 1e-9;  // of quotients of a whole number of cells
+    constexpr double rounding = 1e-9;  // of quotients of a whole number of cells: round-off of one division
     grid.cells[axis] =
         std::max(1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - rounding)));
   }

@@ -248,7 +248,7 @@ void take_cells(const Node& whole, const std::vector<double>& cells, MeshOptions
     throw InputError(origin, std::string("an unstructured mesh has no cells along ") + axes, "its edges have a size",
                      "write kind: structured, or size: …");
   }
-  constexpr double most = 1e7;
+  constexpr double most = 1e7;  // along a side: no memory holds more
   const auto is_count = [](double count) { return count == std::floor(count) && count <= most; };
   if (cells.size() != dimension || !std::ranges::all_of(cells, is_count)) {
     throw InputError(

@@ -201,7 +201,7 @@ StepStatus MeshGrowth::evaluate(Model& trial, const StepTime& step, std::size_t 
 
 /// After this number of refusals because of growth, a step is no longer halved: the shortest step comes next.
 void MeshGrowth::shorten(const StepTime& step, StepStatus& refused) {
-  constexpr int halves = 3;
+  constexpr int halves = 3;  // each refusal costs some ten trials
   refusals_ = refused_at_ == step.start ? refusals_ + 1 : 1;
   refused_at_ = step.start;
   if (refusals_ < halves) return;

@@ -13,10 +13,9 @@ namespace sprekk {
 /// Makes the models of the trials of one step. As long as the shapes of cells allow, a trial has the mesh of the trial
 /// before, with moved tips, and the first trial the accepted mesh. So the state depends smoothly on the positions of
 /// the tips, and the discretization around tips that go on stays the same.
-///
-/// Where the mesh has to have other cells, since a cell on a path is divided or the cells around tips have become too
-/// thin, the state is first carried over with its tips at rest (MeshChange::is_at_rest). So the effect of another
-/// discretization on the same state is separated from growth, which follows.
+/// Where cells have to be made anew (a path divides one, or those around tips have become too thin), the state is first
+/// carried over with its tips at rest (MeshChange::is_at_rest). So the effect of other cells on the same state is kept
+/// apart from growth, which follows.
 class TrialMeshes {
  public:
   /// `retired`: a model that is not used any more.
@@ -29,7 +28,7 @@ class TrialMeshes {
   /// fracture cannot take, std::runtime_error where no mesh can be made.
   MeshChangeResult model_with(const std::vector<PathExtension>& paths);
 
-  /// The cells around tips: those that are there, but for the ones that a path divides, or others.
+  /// The cells around tips: the present ones, except those that a path divides, or new ones.
   enum class Cells { same, anew };
   /// Carries the accepted state over to such cells, with tips at rest: the base of the next trials. False where that is
   /// not possible; the accepted state then is the base.

@@ -9,11 +9,11 @@
 namespace sprekk {
 
 /// Transfers the accepted values of all fields to the new mesh. Values on kept cells and on fractures stay to the bit.
-/// A new cell gets the area-weighted mean of the old cells that it overlaps (Eq. 17 of the paper, with values that are
-/// linear within old cells, or as the old parts know them there), or, for amounts, the sum of its shares, so that
-/// totals stay (transferred_cells). The same holds for new fracture cells that cover old ones which were given up
-/// (means are over the part that is covered); other new fracture cells keep the initial values of their components.
-/// Values on new nodes and faces are those of the old field at their places (transferred_in_cells).
+/// A new cell gets the area-weighted mean of the old cells that it overlaps (Eq. 17 of the paper); within old cells
+/// values are linear, or as the old parts know them there. Of amounts it gets the sum of its shares, so that totals
+/// stay (transferred_cells). The same holds for new fracture cells that cover old ones which were given up (means are
+/// over the part that is covered); other new fracture cells keep the initial values of their components. Values on new
+/// nodes and faces are those of the old field at their places (transferred_in_cells).
 void transfer_fields(const FieldStore& before, const MeshChange& change, const Mesh& old_mesh, const Mesh& new_mesh,
                      FieldStore& after, const std::vector<Part*>& old_parts = {});
 

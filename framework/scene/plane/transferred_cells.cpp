@@ -98,7 +98,7 @@ double mean_of_pieces(const std::vector<LinearPiece>& pieces, const Corners& cel
     sum += part.area * piece.weight * piece.at(part.centre);
     if (piece.weight < 1) sum += part.area * (1 - piece.weight) * linear.at(old_cell, part.centre)[0];
   }
-  // Of a common part that is a line but for rounding the pieces may have nothing.
+  // Of a common part that is a line except for rounding the pieces may have nothing.
   return area > 0 ? sum / area : linear.at(old_cell, common_part(cell, old_corners).centre)[0];
 }
 

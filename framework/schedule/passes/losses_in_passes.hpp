@@ -7,10 +7,10 @@
 
 namespace sprekk {
 
-/// Decides what follows when a solve in a pass finds that equilibria end at some time of the step. As other unknowns
-/// are held, this says nothing yet: over a shorter step they change less, and the end may move away. So the step is to
-/// be repeated over most of the way up to there. If the next one finds the end again, and the run has come nearer to it
-/// by more than it has moved away, it stays ahead however short the steps are: the run ends with that reason.
+/// Decides what follows when a solve in a pass finds that equilibria end at some time of the step. Other unknowns are
+/// held meanwhile: over a shorter step they change less, and the end may move away. So the step is repeated over most
+/// of the way up to there. If the end is found again, and the run has come nearer to it by more than it has moved away,
+/// no step is short enough: the run ends with that reason.
 class LossesInPasses {
  public:
   /// `at`: when equilibria end in the step, s. The size with which it is to be repeated, s; none where that is

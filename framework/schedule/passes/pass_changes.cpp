@@ -29,13 +29,13 @@ bool PassChanges::only_grow() const {
 }
 
 bool PassChanges::explode() const {
-  constexpr double fast = 10;
+  constexpr double fast = 10;  // growth by a pass, twice in a row, at which an iteration is given up
   const std::size_t n = sizes_.size();
   return n > 2 && sizes_[n - 1] > 1 && sizes_[n - 1] > fast * sizes_[n - 2] && sizes_[n - 2] > fast * sizes_[n - 3];
 }
 
 bool PassChanges::stay_large(std::size_t passes) const {
-  constexpr double large = 0.1, hardly_less = 0.98;
+  constexpr double large = 0.1, hardly_less = 0.98;  // of the largest value; a factor of 0.998 a pass
   const std::size_t n = sizes_.size();
   if (n < begin_ + 2 * passes) return false;
   return least(relative_, n - passes, n) > large &&
@@ -43,7 +43,7 @@ bool PassChanges::stay_large(std::size_t passes) const {
 }
 
 bool PassChanges::are_round_off() const {
-  constexpr double smallest = 1e-8, hardly_less = 0.9;
+  constexpr double smallest = 1e-8, hardly_less = 0.9;  // as Newton's `update`; of the change ten passes before
   return sizes_.size() > begin_ + watched && *std::max_element(sizes_.end() - watched, sizes_.end()) < smallest &&
          sizes_.back() > hardly_less * sizes_[sizes_.size() - 1 - watched];
 }

@@ -10,7 +10,7 @@ namespace sprekk {
 
 Vector round_off_of_values(const Assembly& assembly, const BlockSystem& system) {
   SPREKK_EXPECT(assembly.wants_derivatives());
-  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of summed terms
   Vector sizes = Vector::Zero(system.size()), own = sizes;
   for (const Assembly::Block& block : assembly.blocks()) {
     const std::vector<char>& owned = system.owned(block.row);

@@ -18,7 +18,7 @@ class StalledAcceleration {
   /// pass, scaled.
   Next after(double change) {
     if (is_plain_) {
-      constexpr double clearly_more = 2;
+      constexpr double clearly_more = 2;  // times the first change: plain passes are taken back
       if (change > clearly_more * first_) return stop(Next::back);
       return comes_nearer(change) ? Next::plain : stop(Next::accelerated);
     }
@@ -33,8 +33,8 @@ class StalledAcceleration {
 
  private:
   bool comes_nearer(double change) {
-    constexpr int patience = 6;  // passes
-    constexpr double less = 0.9;
+    constexpr int patience = 6;   // passes: accelerators make changes rise for a few passes
+    constexpr double less = 0.9;  // of the least change so far: accelerated changes may rise for a few passes
     passes_ = change < less * best_ ? 0 : passes_ + 1;
     if (passes_ == 0) best_ = change;
     return passes_ < patience;

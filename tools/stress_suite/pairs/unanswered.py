@@ -9,7 +9,7 @@ OPENING = ("opening", "window", "settle pore conduit", "growth")
 
 @dataclass(frozen=True)
 class Reason:
-    why: str       # as in docs/stability.md
+    why: str       # the physics of it
     said: tuple    # what the message says, one of these
     remedy: str    # what it proposes
 

@@ -51,7 +51,7 @@ class __Class__ : public Component {
     }
   }
 
-  void begin_step(const StepTime& step) override { evaluate_data(step); }
+  void begin_step(const StepTime&) override {}  // nothing to discretize anew
 
   /// Each term is written once, and by itself: what is left of the equation is compared with its terms.
   void assemble(Assembly& assembly, const StepTime& step) const override {

@@ -8,7 +8,7 @@ namespace sprekk::fine_fracture {
 
 /// Tolerance and limits of the refinement.
 struct AdaptOptions {
-  double tolerance = 1e-3;    ///< of ErrorEstimate::relative
+  double tolerance = 1e-3;    ///< of ErrorEstimate::relative; by comparison with the limit of refinement
   int at_most = 5;            ///< largest number of meshes
   int most_elements = 50000;  ///< meshes that are expected to have more elements are not made
 };

@@ -87,6 +87,7 @@ void BlockCholesky::factorize(const BlockMatrix& matrix) {
 }
 
 void BlockCholesky::invert(int column, const Block& pivot, const Block& diagonal) {
+  // Of the diagonal, some ten roundings: a smaller pivot is that of a singular stiffness.
   constexpr double rounding = 1e-14;
   const double a = pivot(0, 0), b = 0.5 * (pivot(0, 1) + pivot(1, 0)), c = pivot(1, 1);
   const double rest = c - b * b / a;

@@ -37,12 +37,13 @@ struct Crossings {
 };
 
 /// The crossings, or nothing where an edge has two of them. A border through a node of the mesh, as where it begins at
-/// a fracture, meets the corners of elements there but for round-off: these are no crossings of edges.
+/// a fracture, meets the corners of elements there except for round-off: these are no crossings of edges.
 std::optional<Crossings> crossings_of(const Corners& corners, const std::vector<FineRock::Border>& borders) {
   const Point low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
   const Point high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-  constexpr double rounding = 1e-12;  // of a border, and of the sine of an angle
-  constexpr double same = 1e-9;       // of an edge
+  // Of a border, and of the sine of an angle: round-off where pieces of a border meet.
+  constexpr double rounding = 1e-12;
+  constexpr double same = 1e-9;  // of an edge
   const Point margin = Point::Constant(same * (high - low).maxCoeff());
   Crossings crossings;
   for (const FineRock::Border& border : borders) {

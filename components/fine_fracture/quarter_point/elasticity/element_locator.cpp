@@ -35,7 +35,7 @@ std::array<int, 2> ElementLocator::bucket_of(const Point& x) const {
 }
 
 std::optional<ElementPlace> ElementLocator::place_in(int e, const Point& x) const {
-  constexpr double tolerance = 1e-12;
+  constexpr double tolerance = 1e-12;  // of an element: round-off of points on an edge
   const FineMesh::Element& element = mesh_.elements[e];
   const Point& origin = mesh_.nodes[element.nodes[0]];
   Tensor sides;

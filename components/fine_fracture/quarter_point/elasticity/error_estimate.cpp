@@ -71,7 +71,7 @@ class Recovery {
   /// The elements outside of rosettes around a node, with their neighbours if they are too few for a fit.
   std::vector<int> samples(int node) const {
     std::vector<int> found, corners{node};
-    constexpr std::size_t enough = 4;
+    constexpr std::size_t enough = 4;  // elements: three determine a plane exactly, and leave nothing to average
     for (int ring = 0; ring < 3 && found.size() < enough; ++ring) {
       std::vector<int> next;
       for (const int n : corners) {

@@ -45,7 +45,7 @@ void Unknowns::prescribe_sides(const FineGeometry& geometry, const FineMesh& mes
     for (const int node : edge.nodes) {
       if (is_prescribed_[node]) continue;
       is_prescribed_[node] = true;
-      constexpr double slightly = 0.1;
+      constexpr double slightly = 0.1;  // of the way to the element's centre: clearly inside
       prescribed_.push_back({node, mesh.nodes[node] + slightly * (center - mesh.nodes[node])});
     }
   }

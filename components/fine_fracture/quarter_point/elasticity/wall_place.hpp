@@ -23,7 +23,7 @@ inline WallPlace wall_place(const FineMesh& mesh, const FineMesh::WallEdge& edge
   const Point& from = mesh.nodes[edge.nodes[0][0]];
   const double arc = edge.from + std::clamp((x - from).dot(edge.tangent), 0.0, edge.to - edge.from);
   // An end of the edge must not fall into the next segment: it is moved a little towards the middle.
-  constexpr double rounding = 1e-9;  // of the way to the middle
+  constexpr double rounding = 1e-9;  // of the way to the middle: round-off of lengths
   const double inside = arc + rounding * (0.5 * (edge.from + edge.to) - arc);
   const int last = static_cast<int>(lengths.size()) - 2;
   const auto above = std::upper_bound(lengths.begin(), lengths.end(), inside);
@@ -41,7 +41,7 @@ inline std::vector<LinePoint> wall_rule(const FineMesh& mesh, const FineMesh::Wa
     return has_tip_first ? std::sqrt(part) : 1 - std::sqrt(1 - part);
   };
   std::vector<double> stops{0};
-  constexpr double smallest_part = 1e-6;
+  constexpr double smallest_part = 1e-6;  // of the edge: a shorter piece is round-off of lengths
   for (const double arc : mesh.arc_lengths[edge.crack]) {
     const double part = (arc - edge.from) / length;
     if (part > smallest_part && part < 1 - smallest_part) stops.push_back(parameter(part));

@@ -187,7 +187,7 @@ class Builder {
 
 /// The options in a frame whose unit has the length `unit` (m), without their last digits.
 FineMeshOptions rounded_options(FineMeshOptions options, double unit) {
-  constexpr int sizes_in_octave = 64;
+  constexpr int sizes_in_octave = 64;  // rounded to 1 %
   for (double* size : {&options.tip_size, &options.far_size, &options.kink_size})
     if (*size > 0) *size = rounded_in_octave(*size / unit, sizes_in_octave);
   return options;

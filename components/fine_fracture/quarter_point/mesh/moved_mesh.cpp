@@ -106,7 +106,7 @@ std::optional<OutsideMesh> moved_mesh(const Triangulated& made, const FineGeomet
   OutsideMesh result = made.mesh;
   for (std::size_t i = 0; i < motion.size(); ++i) result.raw.nodes[i] = made.frame.outward(raw.nodes[i] + motion[i]);
   for (const auto& [node, place] : places) result.raw.nodes[node] = place;
-  constexpr double least = 0.5;  // of the smallest angle
+  constexpr double least = 0.5;  // of the smallest angle: below, a new one is better
   if (!(smallest_angle(result.raw.nodes, raw.cells) > least * made.followers->smallest_angle)) return std::nullopt;
   return result;
 }

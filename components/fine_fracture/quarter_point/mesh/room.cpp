@@ -8,7 +8,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr double largest_bend = 1e-9;  ///< rad, largest bend of a part that counts as straight
+constexpr double largest_bend = 1e-9;  ///< rad, largest bend of a part that counts as straight: round-off of directions
 
 /// The points of a path in their order from a tip.
 struct Walk {

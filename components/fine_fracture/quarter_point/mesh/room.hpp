@@ -7,8 +7,9 @@
 
 namespace sprekk::fine_fracture {
 
-/// Points of a path without a bend, with one kind of walls on both sides: they are passed as if they were not there, or
-/// the straight end of the crack ends at them, so that rooms are continuous in the bends of the path.
+/// What a point of a path does where the path has no bend and one kind of walls on both sides. Either it is passed as
+/// if it were not there; or the straight end of the crack ends there, so that rooms are continuous in the bends of the
+/// path.
 enum class StraightPoints { are_passed, end_it };
 
 /// A tip with the straight end of its crack.
@@ -23,9 +24,12 @@ struct TipRoom {
   double radius;      ///< of the rosette, m
 };
 
-/// All tips with their rooms. The radius of a rosette is the least of: `largest_radius` (m); half of the straight end
-/// of the crack (a third, if this has two tips); half of its part with the same kind of walls; a third of the distance
-/// to other cracks and to the other tip of its own crack; half of the distance to anything else.
+/// All tips with their rooms. The radius of a rosette is the least of
+/// - `largest_radius` (m);
+/// - half of the straight end of the crack (a third, if this has two tips), and half of its part with one kind of
+/// walls;
+/// - a third of the distance to other cracks and to the other tip of its own crack;
+/// - half of the distance to anything else.
 std::vector<TipRoom> tip_rooms(const FineGeometry& geometry, double largest_radius,
                                StraightPoints points = StraightPoints::are_passed);
 

@@ -9,7 +9,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int radii_in_octave = 16;       ///< rounded radii of rosettes
+constexpr int radii_in_octave = 16;       ///< rounded radii of rosettes: to 4 %; bends to 1.4 degrees
 constexpr double lengths_in_radii = 4;    ///< local lengths are no longer than this, in rounded radii
 constexpr int bends_in_right_angle = 64;  ///< rounded bends
 

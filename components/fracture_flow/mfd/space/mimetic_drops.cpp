@@ -32,6 +32,7 @@ Eigen::MatrixXd beside_two_point_fluxes(const Mesh& mesh, int cell) {
   const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(count, count) - normals * midpoints.transpose() / of.measure;
   Eigen::MatrixXd g = midpoints * midpoints.transpose() / of.measure + rest.transpose() * h.asDiagonal() * rest;
   g.diagonal() -= h;
+  // Of the largest entry: rectangles, where nothing else is left, keep two-point fluxes.
   constexpr double round_off = 1e-14;
   return (g.cwiseAbs().array() < round_off * h.maxCoeff()).select(0, g);
 }

@@ -21,7 +21,7 @@ SegmentTree::SegmentTree(const std::vector<Segment>& segments) : order_(segments
 }
 
 int SegmentTree::grow(int first, int last, const std::vector<Extent>& extents) {
-  constexpr int in_a_leaf = 4;
+  constexpr int in_a_leaf = 4;  // segments that are looked at one by one
   const int branch = static_cast<int>(branches_.size());
   Extent whole = extents[order_[first]];
   for (int i = first + 1; i < last; ++i) whole = whole.joined(extents[order_[i]]);

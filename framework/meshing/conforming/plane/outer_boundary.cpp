@@ -12,7 +12,8 @@ namespace {
 
 /// Nodes at one place, of the extent of the mesh: round-off of coordinates in a file.
 constexpr double same_place = 1e-9;
-/// A gap that is narrower is an error of coordinates and not a part of the domain, of the shorter edge at it.
+/// A gap that is narrower is an error of coordinates and not a part of the domain, of the shorter edge at it: round-off
+/// of coordinates in a file.
 constexpr double least_gap = 1e-3;
 
 std::vector<int> outer_edges(const FaceTable& edges) {

@@ -16,7 +16,7 @@ using Kind = OuterBoundary::Contact::Kind;
 
 /// Edges of a hole from which some ten cells are missing. A hole that is meant is rounder, or has a group.
 constexpr std::size_t few_edges = 12;
-constexpr std::size_t most_places = 3;  // that a message names
+constexpr std::size_t most_places = 3;  // that a message names: more are not read
 
 /// "2 nodes lie on the inside of an edge, at (1, 2) and (3, 4)".
 std::string at_places(const std::string& what, const std::vector<Point>& places) {

@@ -12,7 +12,8 @@
 namespace sprekk {
 namespace {
 
-constexpr double round_off = 1e-9;  // of the longest edge of a face: what is nearer lies on it
+// Of the longest edge of a face: what is nearer lies on it; round-off of coordinates.
+constexpr double round_off = 1e-9;
 /// Faces of a hole from which some ten tetrahedra are missing. A hole that is meant has more, or has a group.
 constexpr std::size_t few_faces = 24;
 

@@ -8,7 +8,7 @@
 namespace sprekk {
 namespace {
 
-/// Appends the points of a run that stay, but for its first.
+/// Appends the points of a run that stay, except for its first.
 void thin_out(const std::vector<Point>& points, const std::vector<int>& run, double shortest, std::vector<int>& kept) {
   std::vector<std::pair<std::size_t, std::size_t>> parts = {{0, run.size() - 1}};
   std::vector<std::size_t> stay;

@@ -18,7 +18,8 @@ namespace {
 
 /// Rounds of joining after which lines are called entangled. Networks of hundreds of lines take three to six.
 constexpr int most_rounds = 100;
-/// By how much the reach is larger, of itself: a distance that is written as the reach is within it.
+/// By how much the reach is larger, of itself: a distance that is written as the reach is within it. Round-off of
+/// coordinates.
 constexpr double reach_rounding = 1e-6;
 
 struct Place {

@@ -221,7 +221,7 @@ class Snapper {
   }
 
   std::string some(const std::vector<std::string>& names) const {
-    constexpr std::size_t most_names = 5;
+    constexpr std::size_t most_names = 5;  // a line of text
     std::string text;
     for (std::size_t i = 0; i < std::min(names.size(), most_names); ++i)
       text += (i == 0 ? "'" : ", '") + names[i] + "'";
