@@ -8,7 +8,8 @@ namespace {
 
 /// Values at which a variable is tested, in SI units, and zero.
 std::vector<double> tested_values() {
-  constexpr int first_decade = -12, last_decade = 9, a_decade = 200;
+  constexpr int first_decade = -12, last_decade = 9;  // from apertures squared to moduli, in SI units
+  constexpr int a_decade = 200;                       // steps of 1.2 %: pieces that are narrower are not seen
   std::vector<double> values = {0};
   for (int i = first_decade * a_decade; i <= last_decade * a_decade; ++i)
     values.push_back(std::pow(10, static_cast<double>(i) / a_decade));
@@ -33,8 +34,9 @@ Threshold threshold_between(double before, double behind, const Pieces& pieces) 
 }  // namespace
 
 std::optional<Jump> find_jump(const Program& program, std::size_t first, std::size_t count) {
-  constexpr double of_others[] = {1.618e-3, 0.5772, 9.071e7};
-  constexpr double place = 1.4142, round_off = 1e-9;
+  constexpr double of_others[] = {1.618e-3, 0.5772, 9.071e7};  // small, usual and large, and no round numbers
+  constexpr double place = 1.4142;                             // m and s: no condition is likely to name it
+  constexpr double round_off = 1e-9;                           // of the value: powers and functions of large arguments
   std::vector<double> at(count, place);
   if (program.pieces(at).empty()) return std::nullopt;
   const std::vector<double> values = tested_values();

@@ -10,7 +10,7 @@
 namespace sprekk::formula {
 namespace {
 
-constexpr std::size_t longest_formula = 4000;  // characters
+constexpr std::size_t longest_formula = 4000;  // characters: nobody reads a longer one
 constexpr int deepest_nesting = 500;           // of operands: each needs a part of the stack
 
 /// What binds more tightly comes later; a choice is c ? a : b.
