@@ -99,7 +99,9 @@ int FrictionalContact::keep_states() {
     if (!is_on_fracture_cell(i)) continue;
     const TangentialVector before = tangential(jump_.accepted(), i), slip = tangential(jump_.now(), i) - before;
     const bool slides_back = dilation_[i] > 0 && friction_[i] > 0 && slip.dot(before) < 0;
-    if (is_bonded(i) || !slides_back || magnitude<dimension - 1>(slip) < least * jump_.now().lpNorm<Eigen::Infinity>())
+    const double small = least * jump_.now().lpNorm<Eigen::Infinity>();
+    if (is_bonded(i) || !slides_back ||
+        std::min(magnitude<dimension - 1>(slip), magnitude<dimension - 1>(before)) < small)
       continue;
     if (state(i) == State::open || traction_.accepted()[dimension * i] >= 0) continue;
     kept_[i] = 1;

@@ -10,7 +10,8 @@ import unittest
 import numpy as np
 
 from hexahedra import TURN, mesh_file
-from scene_runs import SceneRuns, on_two_processes
+from scene_runs import ROOT, SceneRuns, on_two_processes
+from scenes_in_space import CUTS
 
 SIDES = ("left", "right", "front", "back", "bottom", "top")
 YOUNG, POISSON = 1e10, 0.25
@@ -142,6 +143,90 @@ class ContactInSpace(SceneRuns):
         runs = [self.run_map(tetrahedra(state, "first"), *settings) for settings in ((), ("components.rock.young_modulus=10.00000001 GPa", f"components.contact.friction={FRICTION * (1 + 1e-9)!r}"))]
         for one, other in zip(*(self.walls(run) for run in runs)):
             self.assertLess(np.abs(one - other).max(), 1e-7 * np.abs(one).max())
+
+    def test_tractions_of_walls_that_stick_do_not_alternate(self):
+        """Under u = A sin(k·x + 1/2) beside a compression, on one fault and on two that cross: tractions are of first order,
+        and the worst of them falls, too."""
+        a, k = 1e-4 * np.array([1.0, -0.6, 0.4]), np.array([1.9, 1.2, -1.5])
+        lame, shear = YOUNG * POISSON / ((1 + POISSON) * (1 - 2 * POISSON)), YOUNG / (2 * (1 + POISSON))
+        phase = " + ".join(f"({float(c)!r})*{axis}/m" for c, axis in zip(k, "xyz")) + " + 0.5"
+        body = [f"({float(f)!r}*sin({phase})) N/m^3" for f in (lame + shear) * k * (a @ k) + shear * a * (k @ k)]
+        u = [f"({float(c)!r}*sin({phase}) - 1e-3*{axis}/m) m" for c, axis in zip(a, "xyz")]
+        for names, order, sizes, least in ((("one",), "first", (0.24, 0.12), 0.9), (("one", "other"), "first", (0.24, 0.12), 0.9), (("one", "other"), "second", (0.6, 0.3), 0.9)):
+            errors, counts = [], []
+            for size in sizes:
+                given = scene({"box": {"x": ["0 m", "1 m"], "y": ["0 m", "1.2 m"], "z": ["0 m", "0.9 m"]},
+                               "fractures": {name: {"points": [[f"{float(c)!r} m" for c in corner] for corner in CUTS[name]]} for name in names}},
+                              {"size": f"{size} m"}, {side: {"displacement": u} for side in SIDES}, order, friction=100, dilation_angle="0 rad")
+                given["components"]["rock"]["body_force"] = body
+                results = self.run_map(given)
+                fields, found = results.fractures(), self.walls(results)[0]
+                wanted = np.empty_like(found)
+                for number, name in enumerate(names):
+                    corners = np.array(CUTS[name], float)
+                    normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])
+                    normal /= np.linalg.norm(normal)
+                    along = np.cross([0, 0, 1], normal) / np.linalg.norm(normal[:2])
+                    local = np.vstack([normal, along, np.cross(normal, along)])
+                    here = np.abs((fields.centres - corners[0]) @ normal) < 1e-6
+                    gradient = np.multiply.outer(np.cos(fields.centres @ k + 0.5), np.multiply.outer(a, k))
+                    stress = lame * np.trace(gradient, axis1=1, axis2=2)[:, None, None] * np.eye(3) + shear * (gradient + gradient.transpose(0, 2, 1))
+                    stress -= 1e-3 * (3 * lame + 2 * shear) * np.eye(3)
+                    wanted[here] = (stress @ normal @ local.T)[here]
+                weights = fields.sizes / fields.sizes.sum()
+                error, scale = np.linalg.norm(found - wanted, axis=1), np.sqrt(weights @ np.sum((wanted - weights @ wanted)**2, axis=1))
+                errors.append([np.sqrt(weights @ error**2) / scale, error.max() / scale])
+                counts.append(len(weights))
+            orders = 2 * np.log(np.divide(*errors)) / np.log(counts[1] / counts[0])
+            print(f"tractions on {names}, order {order}: mean and largest error {errors}, orders {orders}, {counts} cells")
+            self.assertGreater(orders[0], least)
+            self.assertLess(errors[1][1], errors[0][1])
+
+    def test_flow_rock_and_contact_in_turn_have_the_answer_of_all_at_once(self):
+        """A disc that slips along all of its walls, with dilation that lets water in, in one step."""
+        settings = ("mesh={size: 100 m, fracture_size: 20 m, growth: 2}", "time={end: 1 day, step: 1 day}", "output={every: 1 day, fields: true}",
+                    "components.conduit.injection.well.rate=8e-5 m^3/s")
+        schedule = {"iterate": {"steps": [{"solve": ["pore", "conduit"], "stabilize": "fixed_stress"}, {"solve": ["rock", "contact"]}],
+                                "until": {"relative": 1e-10}}}
+        path = ROOT / "configs/tutorial/slipping_disc.yaml"
+        together = self.run_scene(path, *settings)
+        in_turn = self.run_scene([path, self.write(json.dumps({"schedule": [schedule]}), "in_turn.yaml")], *settings)
+        lines, others = together.fractures(), in_turn.fractures()
+        self.assertEqual(set(lines["contact.state_0_stick_1_slip_2_open"]), {1.0})
+        names = [f"contact.{what}.{part}" for what in ("jump", "traction") for part in PARTS] + ["conduit.pressure", "conduit.aperture"]
+        for name in names:
+            scale = np.abs(lines[name]).max() if name.startswith("conduit") else max(np.abs(lines[f"{name.rpartition('.')[0]}.{part}"]).max() for part in PARTS)
+            self.assertLess(np.abs(lines[name] - others[name]).max(), 1e-8 * scale, name)
+        # What slips opens the fracture, and what opens is the aperture.
+        slip = np.hypot(*(lines[f"contact.jump.{part}"] for part in PARTS[1:]))
+        self.assertLess(np.abs(lines["contact.jump.normal"] - slip * np.tan(np.radians(2))).max(), 1e-9 * slip.max())
+        self.assertLess(np.abs(lines["conduit.aperture"] - 1e-4 - lines["contact.jump.normal"]).max(), 1e-9 * slip.max())
+
+    def test_a_spring_slider_slips_in_any_direction_as_it_does_in_a_plane(self):
+        """The scene of a plane (stick-slip with friction of rate and state, within an event), as a block that is sheared 35 degrees off its sides."""
+        settings = ("components.rock.type=poromechanics/fem", "time.end=8e6 s", "output={}")
+        path = ROOT / "configs/verification/spring_slider.yaml"
+        plane = self.run_scene(path, *settings, "mesh.cells=[1, 4]")
+        x, y = np.cos(np.radians(35)), np.sin(np.radians(35))
+        drive = [f"({sign}0.5e-9*{float(c)!r}*t) m" for sign in ("", "-") for c in (x, y)]
+        shear = {"xy": None, "xz": f"{float(5e6 * x)!r} Pa", "yz": f"{float(5e6 * y)!r} Pa"}
+        beside = {"normal_stress": "-10 MPa", "displacement_z": "0 m"}
+        block = {"geometry": {"box": {"x": ["0 m", "10 m"], "y": ["0 m", "10 m"], "z": ["-50 m", "50 m"]},
+                              "fractures": {"fault": {"points": [[f"{a} m", f"{b} m", "0 m"] for a, b in ((0, 0), (0, 10), (10, 10), (10, 0))]}}},
+                 "mesh": {"kind": "structured", "shape": "hexahedra", "cells": [2, 1, 4]},
+                 "components": {"rock": {"initial_stress": {"xx": "-10 MPa", "yy": "-10 MPa", "zz": "-10 MPa", **shear},
+                                         "boundary": {"top": {"displacement": [*drive[:2], "0 m"]}, "bottom": {"displacement": [*drive[2:], "0 m"]},
+                                                      **{side: {"displacement_y": None, **beside} for side in SIDES[:2]},
+                                                      **{side: beside for side in SIDES[2:4]}}}}}
+        space = self.run_scene([path, self.write(json.dumps(block), "block.yaml")], *settings)
+        self.assertEqual(len(plane.times), len(space.times))
+        self.assertGreater(plane.history["contact.events[1]"][-1], 0)
+        self.assertLess(np.abs(space.times / plane.times - 1).max(), 1e-9)
+        for column in ("contact.largest_slip_rate[m/s]", "contact.event_peak_slip_rate[m/s]"):
+            found, wanted = space.history[column], plane.history[column]
+            self.assertLess(np.abs(found - wanted).max(), 1e-5 * np.abs(wanted).max(), column)
+        moment, of_plane = space.history["contact.event_moment[N*m]"][-1] / 10, plane.history["contact.event_moment[N]"][-1]  # 10 m deep
+        self.assertLess(abs(moment - of_plane), 1e-5 * of_plane)
 
     @on_two_processes
     def test_two_processes_have_the_states_of_one(self):
