@@ -95,7 +95,7 @@ class Parser {
     if (const std::string rest = next_token(); rest == ",")
       fail("it has several values, separated by commas", "write decimals with a point");
     else if (rest == ")")
-      fail_parentheses();
+      fail_at(rest, ", where a value or an operator belongs");
     else if (rest == "?" || rest == ":")
       fail("its '?' and ':' do not belong together", "write 'condition ? value : other value'");
     else if (!rest.empty())
@@ -107,19 +107,19 @@ class Parser {
   [[noreturn]] void fail(const std::string& why, const std::string& suggestion = "") const {
     throw Problem{"", why, suggestion};
   }
+  void refuse_unbalanced() const {
+    const auto opened = std::ranges::count(text_, '('), closed = std::ranges::count(text_, ')');
+    if (opened != closed)
+      fail("it has " + std::to_string(opened) + " '(' and " + std::to_string(closed) + " ')'",
+           opened > closed ? "add a ')'" : "remove a ')'");
+  }
   /// Says that the token that comes next stands where it does not belong.
   [[noreturn]] void fail_at(const std::string& token, const std::string& what, const std::string& advice = "") const {
+    refuse_unbalanced();
     const std::string before = trimmed(text_.substr(0, at_));
     fail(quoted(token) + " stands " + (before.empty() ? "at the beginning" : "behind " + quoted(before)) + what,
          advice);
   }
-  [[noreturn]] void fail_parentheses() const {
-    const auto opened = std::ranges::count(text_, '('), closed = std::ranges::count(text_, ')');
-    if (opened == closed) fail_at(")", ", where a value or an operator belongs");
-    fail("it has " + std::to_string(opened) + " '(' and " + std::to_string(closed) + " ')'",
-         opened > closed ? "add a ')'" : "remove a ')'");
-  }
-
   void skip_blanks() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
   }
@@ -187,11 +187,9 @@ class Parser {
     if (at_ < text_.size() && begins_name(text_[at_])) return name();
     const std::string token = next_token();
     if (token == "=") fail("'=' assigns", "compare with '=='");
-    if (token == ")") fail_parentheses();
-    const auto opened = std::ranges::count(text_, '('), closed = std::ranges::count(text_, ')');
-    if (token.empty() && opened != closed) fail_parentheses();
+    refuse_unbalanced();
     if (token.empty()) fail("it ends where a value belongs");
-    const bool is_known = std::string("+-*/^<>=!&|?:,").find(token[0]) != std::string::npos;
+    const bool is_known = std::string("+-*/^<>=!&|?:,)").find(token[0]) != std::string::npos;
     if (is_known) fail_at(token, ", where a value or an operator belongs");
     fail_at(trimmed(text_.substr(at_)), ", which means nothing");
   }
@@ -200,7 +198,7 @@ class Parser {
     if (accept(")")) return;
     const std::string token = next_token();
     if (token == ",") fail("a ',' stands where no function takes several values", "write decimals with a point");
-    if (token.empty() || token == ")") fail_parentheses();
+    refuse_unbalanced();
     if (token == "?" || token == ":")
       fail("its '?' and ':' do not belong together", "write 'condition ? value : other value'");
     fail_at(token, " without an operator between them", "write '*' for a product");
@@ -275,8 +273,10 @@ class Parser {
   std::vector<std::string> known_names() const {
     std::vector<std::string> names = names_.variables;
     for (const char* constant : {"pi", "e"}) names.emplace_back(constant);
+    const auto first = static_cast<std::ptrdiff_t>(names.size());
     for (const NamedFunction& function : functions_of_one()) names.emplace_back(function.name);
     for (const Several& function : functions_of_several) names.emplace_back(function.name);
+    std::sort(names.begin() + first, names.end());
     names.insert(names.end(), names_.suggested_units.begin(), names_.suggested_units.end());
     return names;
   }
