@@ -1,6 +1,7 @@
 #include "framework/compare/difference_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,7 @@ std::string size_text(double value, const std::string& unit) {
   return std::isfinite(value) ? display_text(value, unit, digits) : "no value";
 }
 
-std::string place_text(const Position& place) { return fmt::format("({:.4g}, {:.4g}) m", place[0], place[1]); }
+std::string place_text(const std::vector<double>& place) { return fmt::format("({:.4g}) m", fmt::join(place, ", ")); }
 
 template <class Difference>
 std::vector<const Difference*> largest_first(const std::vector<Difference>& all) {

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <optional>
 
-#include "framework/compare/scale.hpp"
+#include "framework/compare/collected_differences.hpp"
 
 namespace sprekk {
 namespace {
@@ -16,50 +14,20 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// Numbers of regions and fractures have no unit, and are not compared.
 bool is_field(const Grid::Values& array) { return array.name.ends_with(']'); }
 
-/// Where values are compared, with the size that each place stands for.
-struct Places {
-  std::vector<Position> positions;
-  std::vector<double> sizes;
-};
-
-/// A field at the places: its components, each for all places.
-using Components = std::vector<std::vector<double>>;
-
-FieldDifference difference_of(const std::string& name, const Components& field, const Components& other,
-                              const Places& places) {
-  FieldDifference difference;
-  difference.array = name;
-  double sum = 0, whole = 0;
-  for (std::size_t i = 0; i < places.sizes.size(); ++i) {
-    double square = 0;
-    for (std::size_t c = 0; c < field.size(); ++c) {
-      const double a = field[c][i], b = other[c][i];
-      if (std::isfinite(a) != std::isfinite(b)) square = std::numeric_limits<double>::infinity();
-      if (std::isfinite(a) && std::isfinite(b)) square += (a - b) * (a - b);
-    }
-    sum += places.sizes[i] * square;
-    whole += places.sizes[i];
-    if (!(std::sqrt(square) > difference.largest)) continue;
-    difference.largest = std::sqrt(square);
-    difference.where = places.positions[i];
-  }
-  difference.mean_square = whole > 0 ? std::sqrt(sum / whole) : 0;
-  return difference;
-}
+std::vector<double> along(const Position& place) { return {place[0], place[1]}; }
 
 bool is_same_mesh(const Grid& one, const Grid& other) {
   return one.points_per_cell == other.points_per_cell && one.points == other.points && one.cells == other.cells;
 }
 
-Components own_components(const Grid::Values& array) {
-  Components components(at(array.components));
-  for (std::size_t i = 0; i < array.values.size(); ++i) components[i % at(array.components)].push_back(array.values[i]);
-  return components;
+FieldComponents own_components(const Grid::Values& array) {
+  return separate_components(array.values, array.components);
 }
 
 /// Triangles and lines count by their size, points by their parts of the cells around them.
-Places own_places(const Grid& grid, Grid::Place place) {
-  Places cells, points{grid.points, std::vector<double>(grid.points.size(), 0.0)};
+ComparedPlaces own_places(const Grid& grid, Grid::Place place) {
+  ComparedPlaces cells, points{{}, std::vector<double>(grid.points.size(), 0.0)};
+  for (const Position& point : grid.points) points.positions.push_back(along(point));
   const auto count = at(grid.points_per_cell);
   for (std::size_t cell = 0; cell < at(grid.cell_count()); ++cell) {
     const auto corner = [&](std::size_t k) { return grid.points[at(grid.cells[count * cell + k])]; };
@@ -71,7 +39,7 @@ Places own_places(const Grid& grid, Grid::Place place) {
       points.sizes[at(grid.cells[count * cell + k])] += cells.sizes.back() / static_cast<double>(count);
       for (const std::size_t axis : {0U, 1U}) middle[axis] += corner(k)[axis] / static_cast<double>(count);
     }
-    cells.positions.push_back(middle);
+    cells.positions.push_back(along(middle));
   }
   return place == Grid::Place::cell ? cells : points;
 }
@@ -86,33 +54,6 @@ std::vector<std::pair<const Grid::Values*, const Grid::Values*>> common_arrays(c
   return pairs;
 }
 
-/// Collects differences. In the end all of one scale family get the same scale.
-class Collected {
- public:
-  void add(const std::string& name, const Components& field, const Components& other, const Places& places) {
-    fields_.push_back(difference_of(name, field, other, places));
-    double& width = widths_[scale_family(name)];
-    sizes_.push_back(0);
-    for (std::size_t c = 0; c < field.size(); ++c) {
-      ValueRange range;
-      for (const Components* of : {&field, &other})
-        for (const double value : (*of)[c]) range.add(value);
-      width = std::max(width, range.width());
-      sizes_.back() = std::max(sizes_.back(), range.size());
-    }
-  }
-  std::vector<FieldDifference> take() {
-    for (std::size_t i = 0; i < fields_.size(); ++i)
-      fields_[i].scale = scale_of(widths_[scale_family(fields_[i].array)], sizes_[i]);
-    return std::move(fields_);
-  }
-
- private:
-  std::vector<FieldDifference> fields_;
-  std::vector<double> sizes_;
-  std::map<std::string, double> widths_;  // of the families' widest component
-};
-
 }  // namespace
 
 GridDifference grid_difference(const Grid& one, const Grid& walls, const Grid& other, const Grid& other_walls) {
@@ -120,7 +61,7 @@ GridDifference grid_difference(const Grid& one, const Grid& walls, const Grid& o
   if (one.cell_count() == 0 || other.cell_count() == 0 || one.points_per_cell != other.points_per_cell) return result;
   const auto pairs = common_arrays(one, other);
   result.is_same_mesh = is_same_mesh(one, other);
-  Collected collected;
+  CollectedDifferences collected;
   if (result.is_same_mesh) {
     result.compared = one.sources.back() + 1;
     for (const auto& [array, found] : pairs)
@@ -132,7 +73,8 @@ GridDifference grid_difference(const Grid& one, const Grid& walls, const Grid& o
   const bool is_first_finer = one.sources.back() >= other.sources.back();
   const CellSampler fine(is_first_finer ? one : other, is_first_finer ? walls : other_walls);
   const CellSampler coarse(is_first_finer ? other : one, is_first_finer ? other_walls : walls);
-  Places places;
+  ComparedPlaces places;
+  std::vector<Position> positions;
   std::vector<int> cells, parts;
   for (int cell = 0; cell < fine.cell_count(); ++cell) {
     const std::optional<int> part = coarse.part_at(fine.centre(cell), fine.group(cell));
@@ -142,19 +84,20 @@ GridDifference grid_difference(const Grid& one, const Grid& walls, const Grid& o
     }
     cells.push_back(cell);
     parts.push_back(*part);
-    places.positions.push_back(fine.centre(cell));
+    positions.push_back(fine.centre(cell));
+    places.positions.push_back(along(fine.centre(cell)));
     places.sizes.push_back(fine.size(cell));
   }
   result.compared = static_cast<int>(cells.size());
   for (const auto& [array, found] : pairs) {
     const Grid::Values& on_fine = is_first_finer ? *array : *found;
     const Grid::Values& on_coarse = is_first_finer ? *found : *array;
-    Components own, sampled;
+    FieldComponents own, sampled;
     for (int c = 0; c < array->components; ++c) {
       const std::vector<double> all = fine.values(on_fine, c);
       own.emplace_back();
       for (const int cell : cells) own.back().push_back(all[at(cell)]);
-      sampled.push_back(coarse.values_at(on_coarse, c, places.positions, parts));
+      sampled.push_back(coarse.values_at(on_coarse, c, positions, parts));
     }
     collected.add(array->name, own, sampled, places);
   }

@@ -13,8 +13,8 @@ struct FieldDifference {
   std::string array;       ///< "quantity[unit]"
   double mean_square = 0;  ///< SI: root of the mean square, the L2 norm over the root of the size of what is compared
   double largest = 0;      ///< SI; infinite where one grid has a value and the other has none
-  Position where{};        ///< m
-  double scale = 0;        ///< SI: the range of both grids, the widest of components
+  std::vector<double> where;  ///< m, two coordinates or three
+  double scale = 0;           ///< SI: the range of both grids, the widest of components
 };
 
 /// The differences of all arrays that two grids have.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "framework/compare/body_difference.hpp"
 #include "framework/compare/scale.hpp"
 #include "framework/config/input_error.hpp"
 #include "framework/output/progress.hpp"
@@ -16,16 +17,22 @@
 namespace sprekk {
 namespace {
 
+<<<<<<< HEAD
 constexpr double same_time = 1e-9;  // relative difference of two times: as for steps
+=======
+constexpr double same_instant = 1e-9;  // relative difference of two times
+>>>>>>> bbf72f1c (sprekk compare: fields of runs in space, on one mesh or at the centres of the finer one; figures of the stress family in space)
 
 const Snapshot* written_at(const std::vector<Snapshot>& all, double time) {
   for (const Snapshot& snapshot : all)
-    if (std::abs(snapshot.time - time) <= same_time * std::max(std::abs(time), std::abs(snapshot.time)))
+    if (std::abs(snapshot.time - time) <= same_instant * std::max(std::abs(time), std::abs(snapshot.time)))
       return &snapshot;
   return nullptr;
 }
 
-/// Empty where there is none. Fields in space are not compared.
+bool is_in_space(const ComparedRun& run) { return dimension_of_results(run.name) == 3; }
+
+/// Empty where there is none, and in space.
 Grid grid_at(const std::vector<Snapshot>& all, double time) {
   const Snapshot* const snapshot = written_at(all, time);
   if (snapshot && dimension_of_results(snapshot->file.parent_path()) == 3) return {};
@@ -56,14 +63,6 @@ std::vector<std::string> array_names(const Grid& grid) {
   return names;
 }
 
-void remark_space(RunDifference& difference) {
-  for (const ComparedRun* run : {difference.run, difference.other})
-    if (dimension_of_results(run->name) == 3) {
-      difference.remarks.push_back("fields in space are not compared, tables are: compare fields by probes and lines");
-      return;
-    }
-}
-
 void remark_endings(RunDifference& difference) {
   for (const ComparedRun* run : {difference.run, difference.other})
     if (!run->is_done) {
@@ -91,22 +90,36 @@ void compare_histories(RunDifference& difference) {
   if (times.empty() || others.empty()) return;
   if (difference.time.first > difference.time.last)
     difference.remarks.push_back("the histories have no time in common");
-  else if (std::abs(times.back() - others.back()) > same_time * std::max(times.back(), others.back()))
+  else if (std::abs(times.back() - others.back()) > same_instant * std::max(times.back(), others.back()))
     difference.remarks.push_back(fmt::format(
         "compared until {}: {} ends at {}, {} at {}", duration_text(difference.time.last), difference.run->name,
         duration_text(times.back()), difference.other->name, duration_text(others.back())));
 }
 
-void remark_meshes(RunDifference& difference, const Grid& grid, const Grid& other) {
+void remark_meshes(RunDifference& difference, int cells, int other_cells) {
   const GridDifference& matrix = difference.matrix;
   if (matrix.is_same_mesh) return;
   difference.remarks.push_back(
       fmt::format("the meshes differ: {} cells in {}, {} in {}; fields are compared at the {} cells of the finer one",
-                  grid.sources.back() + 1, difference.run->name, other.sources.back() + 1, difference.other->name,
-                  matrix.compared));
+                  cells, difference.run->name, other_cells, difference.other->name, matrix.compared));
   if (matrix.outside > 0)
     difference.remarks.push_back(
         fmt::format("{} cells of the finer mesh are left out (the other one does not cover them)", matrix.outside));
+}
+
+void compare_bodies(RunDifference& difference) {
+  const ComparedRun &run = *difference.run, &other = *difference.other;
+  const auto read = [&](const std::vector<Snapshot>& all) {
+    const Snapshot* const snapshot = written_at(all, *difference.written);
+    return snapshot == nullptr ? GridData{} : read_whole(snapshot->file);
+  };
+  const GridData matrix = read(run.matrix), other_matrix = read(other.matrix);
+  difference.matrix = body_difference(matrix, other_matrix);
+  remark_meshes(difference, matrix.cell_count(), other_matrix.cell_count());
+  const GridData surfaces = read(run.fractures), other_surfaces = read(other.fractures);
+  difference.fractures = body_difference(surfaces, other_surfaces);
+  if (surfaces.cell_count() > 0 && other_surfaces.cell_count() > 0 && !difference.fractures.is_same_mesh)
+    difference.remarks.push_back("fields on fractures in space are compared on equal meshes only");
 }
 
 void compare_fields(RunDifference& difference) {
@@ -117,12 +130,17 @@ void compare_fields(RunDifference& difference) {
       difference.remarks.push_back("no fields are compared (there is no time at which both runs have written them)");
     return;
   }
+  if (is_in_space(run) != is_in_space(other)) {
+    difference.remarks.push_back("no fields are compared (one run is in a plane, the other one in space)");
+    return;
+  }
+  if (is_in_space(run)) return compare_bodies(difference);
   const double time = *difference.written;
   const Grid matrix = grid_at(run.matrix, time), other_matrix = grid_at(other.matrix, time);
   const Grid lines = grid_at(run.fractures, time), other_lines = grid_at(other.fractures, time);
   if (matrix.cell_count() > 0 && other_matrix.cell_count() > 0) {
     difference.matrix = grid_difference(matrix, lines, other_matrix, other_lines);
-    remark_meshes(difference, matrix, other_matrix);
+    remark_meshes(difference, matrix.sources.back() + 1, other_matrix.sources.back() + 1);
   }
   difference.fractures = grid_difference(lines, {}, other_lines, {});
   remark_missing(difference, array_names(matrix), array_names(other_matrix));
@@ -165,7 +183,6 @@ RunDifference run_difference(const ComparedRun& run, const ComparedRun& other, c
   difference.run = &run;
   difference.other = &other;
   remark_endings(difference);
-  remark_space(difference);
   compare_histories(difference);
   compare_fields(difference);
   if (difference.compared() == 0) {
