@@ -79,11 +79,12 @@ void require_alone(const Node& whole, const std::string& name, const std::string
                        "they " + how + " and have further parameters", "remove '" + other + "'");
 }
 
-void require_table(const Node& whole, const std::string& name) {
-  for (const char* const key : {"origin", "clip"})
-    if (whole.find(key))
-      throw InputError(origin_of(whole, key), "fracture '" + name + "' has '" + key + "'",
-                       "it is for the fractures of a table", "remove it");
+/// Refuses what is for the fractures of a table.
+void require_table(const Node& whole, const std::string& name, const FractureInput& input) {
+  if (!input.origin && !input.is_clipped) return;
+  const std::string key = input.origin ? "origin" : "clip";
+  throw InputError(origin_of(whole, key), "fracture '" + name + "' has '" + key + "'",
+                   "it is for the fractures of a table", "remove it");
 }
 
 Spec fracture_spec(const std::string& name, const Origin& origin, const std::string& folder, FractureKeeper keeper) {
@@ -115,9 +116,9 @@ Spec fracture_spec(const std::string& name, const Origin& origin, const std::str
           read_fracture_table({input->table, folder, name, origin, input->origin.value_or(Point::Zero())});
       return keeper.keep_table(std::move(fractures), input->is_clipped, input->table);
     }
-    require_table(whole, name);
+    require_table(whole, name, *input);
     if (input->is_random) {
-      require_alone(whole, name, "are random", "random");
+      require_alone(whole, name, "are random", "random", {"clip"});
       return keeper.keep_set(input->random);
     }
     FractureGeometry fracture{name, {}, input->size, origin};
