@@ -147,7 +147,7 @@ std::optional<int> Bodies::holding(const Eigen::Vector3d& place) const {
 
 /// The bodies beside one; where these do not tell a gradient, also those beside them.
 std::vector<int> Bodies::around(int body) const {
-  constexpr std::size_t enough = 4;
+  constexpr std::size_t enough = 4;  // bodies, one more than directions: they tell a gradient and how far it is one
   if (beside_[body].size() >= enough) return beside_[body];
   std::set<int> all(beside_[body].begin(), beside_[body].end());
   for (const int next : beside_[body]) all.insert(beside_[next].begin(), beside_[next].end());
