@@ -14,6 +14,7 @@
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
+#include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
