@@ -17,11 +17,7 @@
 namespace sprekk {
 namespace {
 
-<<<<<<< HEAD
-constexpr double same_time = 1e-9;  // relative difference of two times: as for steps
-=======
-constexpr double same_instant = 1e-9;  // relative difference of two times
->>>>>>> bbf72f1c (sprekk compare: fields of runs in space, on one mesh or at the centres of the finer one; figures of the stress family in space)
+constexpr double same_instant = 1e-9;  // relative difference of two times: as for steps
 
 const Snapshot* written_at(const std::vector<Snapshot>& all, double time) {
   for (const Snapshot& snapshot : all)
