@@ -182,7 +182,7 @@ struct Resized {
   /// with units.
   bool has_dimension(const Dimension& dimension, bool has_length, bool has_time) const {
     constexpr double rounding = 1e-9;  // powers of units after a few operations
-    int decade = 9;  // of the state: from large values to small ones, in SI units
+    int decade = 9;                    // of the state: from large values to small ones, in SI units
     for (const Place& place : test_places()) {
       std::vector<double> values, resized_values;
       for (const StateVariable& variable : state) {

@@ -125,8 +125,9 @@ TEST(Formula, TellsTheStateInWhichItHasNoValue) {
   node.entries.push_back({"friction", here, value});
   spec.read(node, {});
   EXPECT_NEAR(at(friction, 0.1, 0).value, 0.5, 1e-15);
-  EXPECT_THAT(runtime_error_of([&] { at(friction, 0.7, 0); }),
-              testing::AllOf(HasSubstr("'friction' is -0.09999"), HasSubstr("slip = 0.7 m"), HasSubstr("it must be >= 0")));
+  EXPECT_THAT(
+      runtime_error_of([&] { at(friction, 0.7, 0); }),
+      testing::AllOf(HasSubstr("'friction' is -0.09999"), HasSubstr("slip = 0.7 m"), HasSubstr("it must be >= 0")));
   EXPECT_THAT(explain(spec), HasSubstr("A formula may name slip (slip, m), sigma_n (normal stress, Pa)."));
   EXPECT_THAT(json_schema(spec), HasSubstr("A formula may name slip"));
   EXPECT_THAT(reference_page(spec), HasSubstr("A formula may name slip"));
