@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/compare/field_difference.hpp"
+#include "framework/compare/compared_field.hpp"
 
 namespace sprekk {
 

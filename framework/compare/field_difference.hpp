@@ -1,21 +1,12 @@
 // How far fields of two runs are apart, on one mesh or on two.
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "framework/compare/compared_field.hpp"
 #include "framework/results/cell_sampler.hpp"
 
 namespace sprekk {
-
-/// The difference of one array of two grids. For a vector or tensor: of the vectors of its components.
-struct FieldDifference {
-  std::string array;       ///< "quantity[unit]"
-  double mean_square = 0;  ///< SI: root of the mean square, the L2 norm over the root of the size of what is compared
-  double largest = 0;      ///< SI; infinite where one grid has a value and the other has none
-  std::vector<double> where;  ///< m, two coordinates or three
-  double scale = 0;           ///< SI: the range of both grids, the widest of components
-};
 
 /// The differences of all arrays that two grids have.
 struct GridDifference {

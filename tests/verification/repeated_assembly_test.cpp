@@ -114,7 +114,8 @@ std::vector<Override> with_heat(const std::string& type) {
        "water], fluid_heat_capacity: 4.2e6 J/(m^3*K)}, {type: heat_exchange, between: [heat, water]}, {type: "
        "thermal_stress, between: [heat, rock], expansion: 1e-5 1/K}, {type: thermal_viscosity, between: [pore, "
        "conduit, heat, water]}, {type: buoyancy, between: [pore, conduit, heat, water], fluid_expansion: 5e-4 1/K, "
-       "compressibility: 1e-9 1/Pa}]"},
+       "compressibility: 1e-9 1/Pa}, {type: thermal_pressurization, between: [pore, conduit, heat, water], "
+       "fluid_expansion: 5e-4 1/K, porosity: 0.1, expansion: 1e-5 1/K, biot_coefficient: 0.8}]"},
       {"materials.gravity", "[0 m/s^2, -9.81 m/s^2]"},
       {"components.rock.gravity", "[0 m/s^2, 0 m/s^2]"},
       {"schedule", "[{solve: [pore, rock, conduit, contact, heat, water]}, {grow: tips, settle: [rock, contact]}]"}};
@@ -199,29 +200,18 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa",
-                                 "poromechanics/fem",
-                                 "matrix_flow/rt0",
-                                 "matrix_flow/ntpfa",
-                                 "contact/penalty",
-                                 "contact/augmented_lagrangian",
-                                 "fine_fracture/jump_fit",
-                                 "matrix_heat/mpfa",
-                                 "matrix_heat/tpfa",
-                                 "fracture_heat/tpfa",
-                                 "heat_advection",
-                                 "heat_exchange",
-                                 "thermal_stress",
-                                 "thermal_viscosity",
-                                 "buoyancy",
-                                 "wells/limited",
-                                 "well_exchange",
-                                 "matrix_exchange",
-                                 "border_exchange",
-                                 "carter_leak_off",
-                                 "matrix_flow/prescribed",
-                                 "matrix_heat/prescribed",
-                                 "fine_fracture/boundary_element"},
+  std::set<std::string> types = {"matrix_flow/tpfa",       "poromechanics/fem",
+                                 "matrix_flow/rt0",        "matrix_flow/ntpfa",
+                                 "contact/penalty",        "contact/augmented_lagrangian",
+                                 "fine_fracture/jump_fit", "matrix_heat/mpfa",
+                                 "matrix_heat/tpfa",       "fracture_heat/tpfa",
+                                 "heat_advection",         "heat_exchange",
+                                 "thermal_stress",         "thermal_pressurization",
+                                 "thermal_viscosity",      "buoyancy",
+                                 "wells/limited",          "well_exchange",
+                                 "matrix_exchange",        "border_exchange",
+                                 "carter_leak_off",        "matrix_flow/prescribed",
+                                 "matrix_heat/prescribed", "fine_fracture/boundary_element"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {

@@ -96,7 +96,7 @@ TEST(RandomFractureSpec, RefusesFurtherParametersAndMeshFiles) {
   };
   const std::string set = "random: {number: 5, length: {value: 1 m}}";
   EXPECT_THAT(message("box: {x: [0, 9], y: [0, 9]}\nfractures: {a: {" + set + ", size: 1 m}}"),
-              HasSubstr("keep 'random' alone"));
+              HasSubstr("remove 'size'"));
   EXPECT_THAT(message("file: some.msh\nfractures: {a: {" + set + "}}"), HasSubstr("together with a mesh file"));
 }
 
