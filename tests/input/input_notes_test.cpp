@@ -48,7 +48,9 @@ Settings with_heat(const std::string& between, const std::string& aperture) {
               ", {type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, "
               "conduit]}, {type: heat_exchange, between: [heat, water]}, {type: heat_advection, fluid_heat_capacity: "
               "4.2e6 J/(m^3*K), between: " +
-              between + "}]",
+              between +
+              "}, {type: thermal_pressurization, between: [pore, conduit, heat, water], fluid_expansion: 3e-4 1/K, "
+              "porosity: 0.1}]",
           "schedule=[{solve: [pore, rock, conduit, contact, heat, water]}]"};
 }
 
