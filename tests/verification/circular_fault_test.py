@@ -92,11 +92,7 @@ class CircularFault(SceneRuns):
     def test_a_mirrored_fault_slips_as_far(self):
         """Through the plane x = 0: strike and rake turn round; meshes differ."""
         mirror = np.diag([-1, 1, 1])
-        moments = []
-        for strike, stress in ((30, sheared(30, 40, 70)), (150, mirror @ sheared(30, 40, 70) @ mirror)):
-            _, sizes, slip = self.slip_of(scene("first", 1 / 3, strike, 40, stress))
-            moments.append(sizes @ np.linalg.norm(slip, axis=1))
-        self.assertLess(abs(moments[1] / moments[0] - 1), 0.02)
+        self.assert_slip(150, 40, mirror @ sheared(30, 40, 70) @ mirror)
 
     def test_a_disturbed_fault_slips_almost_as_far(self):
         given = scene("first", 1 / 3, 30, 40, sheared(30, 40, 70))

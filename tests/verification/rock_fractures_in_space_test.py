@@ -77,12 +77,12 @@ class RockFracturesInSpace(SceneRuns):
         return np.mean(lines[JUMP[0]][inner] / exact[inner]) - 1, lines.sizes @ lines[JUMP[0]] / volume - 1
 
     def test_the_penny_shaped_crack_opens_as_sneddon_says(self):
-        """With four cells on the radius; at first order the rock around, whose cells grow by 0.3 of the distance, is too stiff."""
+        """With four cells on the radius; at first order the rock around is too stiff, so its cells grow more slowly."""
         opening, volume = self.opening_and_volume(self.disc("second", 1 / 4, growth=0.6, half=6))
         print(f"penny-shaped crack, second order: opening {opening:.4f}, volume {volume:.4f}")
         self.assertLess(abs(opening), 0.01)
         self.assertLess(abs(volume), 0.005)
-        opening, volume = self.opening_and_volume(self.disc("first", 1 / 4))
+        opening, volume = self.opening_and_volume(self.disc("first", 1 / 4, growth=0.15))
         print(f"penny-shaped crack, first order: opening {opening:.4f}, volume {volume:.4f}")
         self.assertLess(abs(opening), 0.12)
         self.assertLess(abs(volume), 0.14)
