@@ -31,6 +31,7 @@ def in_space(text):
 
 # Swaps without a meaning: for each type, pieces of reasons, and in which scenes.
 REFUSED = {
+    "poromechanics/mpsa": [("for scenes in space yet", in_space)],
     "fine_fracture/jump_fit": [("does not grow", lambda text: "grow: tips" in text)],
     "matrix_flow/rt0": [("unknowns on faces", uses_peaceman)],
     "matrix_flow/ntpfa": [("not linear in the pressures", uses_peaceman), ("for scenes in space yet", in_space)],
@@ -69,7 +70,8 @@ def swaps(text):
             settings = {f"components.{name}.type": f"{role}/{other}"}
             settings |= {f"components.{name}.{key}": value for key, value in more.items()}
             if present == "fem":
-                settings |= {f"components.{name}.order": more.get("order", "")}
+                if more or "order:" in text:
+                    settings |= {f"components.{name}.order": more.get("order", "")}
             if other == "jump_fit":  # what such tips do not have
                 tips = re.search(rf"^  {name}:.*\n((?:    .*\n|  *#.*\n)*)", text, re.M).group(1)
                 settings |= {f"components.{name}.{key}": "" for key in re.findall(r"^    (\w+):", tips, re.M) if key != "type"}
