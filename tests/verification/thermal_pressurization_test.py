@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """thermal_pressurization_test.py SPREKK [MPIEXEC]: fluid that is warmed and cannot leave. Closed forms: undrained heating of rock that is held, free or has
 a fracture, in a plane and in space; the pressure around a Gaussian temperature (McTigue 1986: heat and fluid diffuse apart, and the displacement has no
-rotation). Twins: a turned box as a mesh in general position, values that are disturbed by 1e-9, two processes, schemes."""
+rotation). Twins: turned and mirrored, values that are disturbed by 1e-9, two processes, schemes; with substeps, two stages, settled starts and restarts."""
 
 import math
 import unittest
@@ -90,6 +90,21 @@ time: {{end: 40000 s, step: {40000 / steps!r} s}}
     return scene, exact
 
 
+FREE = "left: {displacement_normal: 0 m}, bottom: {displacement_normal: 0 m}"
+FREELY = {dimension: (EXPANSION - ALPHA * 3 * K * ALPHA_T / stiffness) / (STORAGE + ALPHA ** 2 / stiffness) * WARMED
+          for dimension, stiffness in ((2, K + G / 3), (3, K))}  # S dp + alpha de = beta dT with K_d de = alpha dp + 3 K alpha_T dT
+ALONE = f"""
+name: alone
+geometry: {{box: {{x: [0 m, 1 m], y: [0 m, 0.8 m]}}}}
+mesh: {{size: 0.35 m}}
+materials: {{porosity: {PHI!r}, fluid_compressibility: {C_F!r} 1/Pa, fluid_expansion: {BETA!r} 1/K, viscosity: 1 mPa*s}}
+components:
+  pore: {{type: matrix_flow/mpfa, permeability: 1e-16 m^2}}
+  heat: {{type: matrix_heat/prescribed, temperature: "(300 + 3*min(t/s, 1) + {WARMED - 3!r}*max(0, t/s - 1)) K"}}
+couplers: [{PRESSURIZED}]
+schedule: [{{solve: pore}}]
+time: {{end: 2 s, step: 1 s}}
+"""
 FRACTURE = """
 name: heated_fracture
 geometry:
@@ -121,22 +136,45 @@ class ThermalPressurization(SpaceRuns):
             others = ("right", "top") + (("back",) if dimension == 3 else ())
             free = ", ".join(f"{side}: {{displacement_normal: 0 m}}" for side in names)
             held = ", ".join(f"{side}: {{displacement_normal: 0 m}}" for side in names + others)
-            stiffness = K + G / 3 if dimension == 2 else K
-            freely = (EXPANSION - ALPHA * 3 * K * ALPHA_T / stiffness) / (STORAGE + ALPHA ** 2 / stiffness) * WARMED
-            for sides, exact in ((held, EXPANSION / STORAGE * WARMED), (free, freely)):
+            for sides, exact in ((held, EXPANSION / STORAGE * WARMED), (free, FREELY[dimension])):
                 with self.subTest((dimension, rock, sides)):
                     results = self.run_text(warmed(dimension, sides, rock))
                     pressure = results.fields()["pore.pressure"]
                     self.assertLess(np.abs(pressure / exact - 1).max(), 1e-9)
                     self.assertLess(abs(results.history["fluid_stored[m^2]" if dimension == 2 else "fluid_stored[m^3]"][-1]), 1e-12 * PHI)
 
+    def test_turned_with_substeps_and_settled(self):
+        """Reference: the closed form of the free block, which knows no direction and no steps."""
+        scene = warmed(2, FREE)
+        path = self.write(scene, "free.yaml")
+        exact = FREELY[2]
+        for name, files in (("turned", self.turned(path, 27)), ("mirrored", self.turned(path, 27, mirror=True))):
+            with self.subTest(name):
+                self.assertLess(np.abs(self.run_scene(files).fields()["pore.pressure"] / exact - 1).max(), 1e-9)
+        for more in ("start: {settle: pore}", "start: {settle: [pore, rock]}"):
+            with self.subTest(more):
+                self.assertLess(np.abs(self.run_text(scene + more).fields()["pore.pressure"] / exact - 1).max(), 1e-9)
+        in_substeps = warmed(2, FREE, schedule="[{subcycle: {count: 3, steps: [{solve: [pore, rock]}]}}]")
+        self.assertLess(np.abs(self.run_text(in_substeps).fields()["pore.pressure"] / exact - 1).max(), 1e-9)
+
+    def test_two_stages(self):
+        """Reference: dp = beta_f dT/c_f in rock that keeps its volume (thermal_stress has one stage only)."""
+        for steps in (2, 8):
+            pressure = self.run_text(ALONE, f"time={{end: 2 s, step: {2 / steps!r} s, scheme: sdirk2}}").fields()["pore.pressure"]
+            self.assertLess(np.abs(pressure / (BETA * WARMED / C_F) - 1).max(), 1e-9)
+
+    def test_a_restart_keeps_the_bits(self):
+        scene = self.write(gaussian(16, 10)[0], "whole.yaml")
+        whole, folder = self.run_scene(scene), self.folder / "half"
+        self.assertEqual(self.call(["run", "-q", "-o", folder], scene, "time.end=20000 s").returncode, 0)
+        self.assert_same_bits(self.run_scene(scene, restart=folder), whole)
+
     def test_schedules_have_the_same_answer(self):
-        free = "left: {displacement_normal: 0 m}, bottom: {displacement_normal: 0 m}"
-        whole = self.run_text(warmed(2, free)).fields()["pore.pressure"]
+        whole = self.run_text(warmed(2, FREE)).fields()["pore.pressure"]
         for schedule in ("[{iterate: {steps: [{solve: rock}, {solve: pore, stabilize: fixed_stress}], until: {relative: 1e-10, at_most: 400}}}]",
                          "[{iterate: {steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}], until: {relative: 1e-10, at_most: 400}}}]"):
             with self.subTest(schedule):
-                split = self.run_text(warmed(2, free, schedule=schedule)).fields()["pore.pressure"]
+                split = self.run_text(warmed(2, FREE, schedule=schedule)).fields()["pore.pressure"]
                 self.assertLess(np.abs(split / whole - 1).max(), 1e-7)
 
     def test_pressure_around_a_gaussian_temperature(self):

@@ -10,6 +10,7 @@
 
 #include "framework/config/yaml/parse_yaml.hpp"
 #include "framework/mesh/quality/mesh_quality.hpp"
+#include "framework/meshing/fracture_geojson.hpp"
 #include "framework/meshing/fracture_table.hpp"
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/meshing/random/random_fractures.hpp"
@@ -66,6 +67,34 @@ fractures:
   EXPECT_LT((ellipse.one_axis - Point(1, 0, 0)).norm(), 1e-12);
   // It dips south.
   EXPECT_LT((ellipse.other_axis - 0.5 * Point(0, 0.5, std::sqrt(0.75))).norm(), 1e-12);
+}
+
+TEST(ScenesInSpace, TakePolygonsOfGeoJson) {
+  const auto read = [](const std::string& geometry) {
+    return read_fracture_geojson(
+        R"({"type": "Feature", "id": 3, "properties": {"opening[mm]": 2}, "geometry": )" + geometry + "}",
+        "net.geojson", "net", {});
+  };
+  const auto fractures =
+      read(R"({"type": "Polygon", "coordinates": [[[1, 2, 3], [2, 2.5, 3], [1, 2, 4], [1, 2, 3]]]})");
+  ASSERT_EQ(fractures.size(), 1U);
+  EXPECT_EQ(fractures[0].name, "3");
+  EXPECT_EQ(fractures[0].points, (std::vector<Point>{Point(1, 2, 3), Point(2, 2.5, 3), Point(1, 2, 4)}));
+  EXPECT_EQ(fractures[0].values[0].column, "opening");
+  const auto refusal_of = [&](const std::string& geometry) -> std::string {
+    try {
+      read(geometry);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(refusal_of(R"({"type": "LineString", "coordinates": [[1, 2], [2, 3]]})"),
+              HasSubstr("a 'LineString' is no"));
+  EXPECT_THAT(refusal_of(R"({"type": "Polygon", "coordinates": [[[1, 2], [2, 2], [1, 3], [1, 2]]]})"),
+              HasSubstr("fewer than 3 coordinates"));
+  EXPECT_THAT(refusal_of(R"({"type": "Polygon", "coordinates": [[[1, 2, 3]], [[1, 2, 3]]]})"),
+              HasSubstr("has 2 rings"));
 }
 
 TEST(ScenesInSpace, RefuseKeysOfThePlane) {
