@@ -144,6 +144,9 @@ struct LinearOptions {
   /// Unknowns up to which `auto` takes a direct solver. In a plane memory is the limit. In space factors fill far more:
   /// one of 50,000 unknowns takes as long as 60 solves by GMRES, and ten times as many are out of reach.
   int largest_for_direct = 600'000;
+  /// Unknowns up to which `auto` solves a system directly after all, where GMRES does not converge. In a plane there
+  /// are none beyond `largest_for_direct`: memory is the limit.
+  int largest_for_direct_instead = 0;
 };
 
 /// `auto`: UMFPACK for small systems in one process, MUMPS for larger ones, where the bulk changes often and in several

@@ -87,8 +87,12 @@ Spec newton_spec(NewtonOptions& options) {
 }
 
 Spec solver_spec(LinearOptions& options) {
-  constexpr int largest_in_space = 50'000;  // factors fill far more than in a plane: memory
-  if (dimension == 3) options.largest_for_direct = largest_in_space;
+  constexpr int largest_in_space = 50'000;           // factors fill far more than in a plane: memory
+  constexpr int largest_in_space_instead = 250'000;  // one factorization takes as long as some 400 iterations there
+  if (dimension == 3) {
+    options.largest_for_direct = largest_in_space;
+    options.largest_for_direct_instead = largest_in_space_instead;
+  }
   Spec spec("solver", "The solver of linear systems.");
   spec.choice(
       "type", options.type,

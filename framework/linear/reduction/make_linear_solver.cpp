@@ -17,7 +17,7 @@ namespace {
 
 /// Chooses a solver for the first system, and again when the number of unknowns crosses a limit. A direct solver is
 /// accurate to rounding error, and in two dimensions faster up to some hundred thousand unknowns; above, its memory is
-/// the limit. A system for which GMRES does not converge is solved directly, if it is not far beyond this limit.
+/// the limit. A system for which GMRES does not converge is solved directly, up to a second limit.
 class AutomaticSolver final : public LinearSolver {
  public:
   explicit AutomaticSolver(const LinearOptions& options) : options_(options) {}
@@ -56,11 +56,10 @@ class AutomaticSolver final : public LinearSolver {
   }
 
  private:
-  static constexpr int most_for_direct_instead = 5;      // times largest_for_direct
   static constexpr int most_iterations_before_it = 100;  // these take a part of the time of a factorization
 
   bool can_be_direct(const LinearSystem& system) const {
-    return system.local.cols() <= most_for_direct_instead * options_.largest_for_direct;
+    return system.local.cols() <= options_.largest_for_direct_instead;
   }
 
   /// The report of GMRES; where it has failed, that of a factorization of the same system, which is used from now on.

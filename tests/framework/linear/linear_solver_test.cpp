@@ -56,6 +56,7 @@ TEST(AutomaticSolver, SolvesDirectlyWhereGmresDoesNotConverge) {
   LinearOptions options;
   options.tolerance = 1e-18;
   options.largest_for_direct = n / 3;
+  options.largest_for_direct_instead = n;
   const auto automatic = make_linear_solver(options);
   for (const int seed : {7, 9}) {
     const LinearSystem system = test::random_dominant(n, seed);
@@ -75,15 +76,18 @@ TEST(AutomaticSolver, SolvesDirectlyWhereGmresDoesNotConverge) {
 
 TEST(AutomaticSolver, LeavesFarLargerSystemsToGmres) {
   constexpr int n = 300;
-  LinearOptions options;
-  options.tolerance = 1e-18;
-  options.largest_for_direct = n / 6;
-  const auto automatic = make_linear_solver(options);
-  const LinearSystem system = test::random_dominant(n, 7);
-  Vector x;
-  EXPECT_TRUE(automatic->factor(system).solved);
-  EXPECT_THAT(automatic->solve(system.local * test::random_vector(n, 8), x).reason,
-              HasSubstr("GMRES did not converge"));
+  for (const int instead : {0, n - 1}) {
+    LinearOptions options;
+    options.tolerance = 1e-18;
+    options.largest_for_direct = n / 6;
+    options.largest_for_direct_instead = instead;
+    const auto automatic = make_linear_solver(options);
+    const LinearSystem system = test::random_dominant(n, 7);
+    Vector x;
+    EXPECT_TRUE(automatic->factor(system).solved);
+    EXPECT_THAT(automatic->solve(system.local * test::random_vector(n, 8), x).reason,
+                HasSubstr("GMRES did not converge"));
+  }
 }
 
 TEST_P(EveryLinearSolver, SolvesANonsymmetricSystem) {
