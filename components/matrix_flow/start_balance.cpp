@@ -15,7 +15,7 @@ namespace {
 
 constexpr double small_part_of_weight = 1e-2;  // of the fluid
 constexpr double part_that_may_vary = 1e-1;    // of its weight, where the density follows temperature and pressure
-constexpr double rounding = 1e-9;              // of the weight
+constexpr double sum_rounding = 1e-9;          // of the weight
 
 /// A cell whose pressure does not fit the weight of its fluid.
 struct Misfit {
@@ -36,7 +36,7 @@ class Start {
     const Point down = g / g.norm();
     misfit.growth = gradient(c).dot(down);
     misfit.weight = of_.density[c] * g.norm();
-    if (std::abs(misfit.growth) < rounding * misfit.weight) misfit.growth = 0;
+    if (std::abs(misfit.growth) < sum_rounding * misfit.weight) misfit.growth = 0;
     misfit.size = std::abs(misfit.growth - misfit.weight);
     misfit.flow = misfit.size * down.dot(of_.mobility[c] * down);
     return misfit;
@@ -96,7 +96,7 @@ class Start {
 /// "(P + 9810*(100 - y)) Pa": the pressure of fluid at rest under gravity along an axis, or "" along no axis.
 std::string at_rest(const FluidAtStart& start, const Misfit& worst) {
   for (int axis = 0; axis < dimension; ++axis) {
-    if (std::abs(worst.g[axis]) < (1 - rounding) * worst.g.norm()) continue;
+    if (std::abs(worst.g[axis]) < (1 - sum_rounding) * worst.g.norm()) continue;
     const bool is_down_negative = worst.g[axis] < 0;
     double top = is_down_negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
     for (const Point& node : start.mesh.nodes)
@@ -123,7 +123,7 @@ void note_start_imbalance(Notes& notes, const FluidAtStart& start, const std::st
     const Misfit misfit = of.in_cell(c);
     if (misfit.weight == 0) continue;
     flow = std::max(flow, misfit.flow);
-    grows = grows && misfit.growth > rounding * misfit.weight;
+    grows = grows && misfit.growth > sum_rounding * misfit.weight;
     has_other_sign = has_other_sign && std::abs(misfit.growth + misfit.weight) <= small * misfit.weight;
     if (misfit.size > worst.size) worst = misfit;
   }

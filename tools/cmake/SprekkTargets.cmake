@@ -1,8 +1,8 @@
-# Files of the framework are compiled six at a time: a clean build reads their headers and makes their templates once instead of six
-# times, and a file that is touched there costs five others. Components and couplers are compiled one by one. Names of anonymous
+# Files of the framework are compiled six at a time, those of one folder of components five: a clean build reads their headers and makes
+# their templates once instead of six times, and a file that is touched there costs five others. Couplers are compiled one by one. Names of anonymous
 # namespaces are those of one file all the same, so each is used once in such a folder; builds without show that files compile alone.
 # A name that the standard library has as well (quoted) needs its namespace where a file before includes the header of that one.
-option(SPREKK_UNITY "Compile files of the framework several at a time" ON)
+option(SPREKK_UNITY "Compile files of the framework and of components several at a time" ON)
 # In these folders every file registers itself under the same name.
 set(compiled_alone "^framework/(acceleration|frame_output)$")
 
@@ -108,9 +108,30 @@ function(sprekk_plugins_of dimension name folder)
   add_library(${name}_objects OBJECT ${sources})
   target_link_libraries(${name}_objects PUBLIC ${ARGN})
   sprekk_reuses(${name}_objects ${folder} headers)
+  if(SPREKK_UNITY AND folder STREQUAL components)
+    sprekk_unity_by_folder(${name}_objects ${sources})
+  endif()
   add_library(${name} INTERFACE)
   target_sources(${name} INTERFACE $<TARGET_OBJECTS:${name}_objects>)
   target_link_libraries(${name} INTERFACE ${ARGN})
+endfunction()
+
+# sprekk_unity_by_folder(target sources…): up to five files of one folder are compiled at a time.
+function(sprekk_unity_by_folder target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  set(before "")
+  foreach(source ${ARGN})
+    cmake_path(GET source PARENT_PATH folder)
+    if(NOT folder STREQUAL before)
+      set(before ${folder})
+      set(count 0)
+    endif()
+    math(EXPR batch "${count} / 5")
+    math(EXPR count "${count} + 1")
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE group)
+    string(REPLACE "/" "_" group ${group})
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${batch})
+  endforeach()
 endfunction()
 
 # sprekk_program(name folders…): the command line with all components and couplers, and with those in further folders, which

@@ -20,7 +20,6 @@ constexpr int n = element_nodes;
 constexpr int force_places_across = 4;  ///< of the square around a place for which a body force is the mean
 constexpr int outline_places = 192;     ///< on the whole outline, about
 
-Complex number(const Point& x) { return {x[0], x[1]}; }
 Point point(Complex x) { return {x.real(), x.imag()}; }
 
 /// (N, S) on a line along `along` of a traction on the plus wall, whose normal points to the right of the line.

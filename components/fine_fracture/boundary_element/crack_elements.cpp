@@ -11,8 +11,6 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-Complex number(const Point& x) { return {x[0], x[1]}; }
-
 CrackElement element_between(int crack, int segment, const Point& from, const Point& to, double first, double last) {
   const Point way = to - from;
   const double length = way.norm();
@@ -223,8 +221,6 @@ Complex local(const CrackElement& element, Complex z) {
   return (z - element.start) * std::conj(element.direction) / element.length;
 }
 
-constexpr Complex unit{0, 1};
-
 }  // namespace
 
 ElementField::ElementField(const CrackElement& element, const Elasticity& rock, Complex z)
@@ -248,10 +244,11 @@ Pair ElementField::displacement(int node) const {
   const Complex value = integrals_.value[node], slope = -integrals_.slope[node];
   const Complex turn = std::conj(element_.direction * element_.direction);
   const auto by = [&](Complex jump) {
-    const Complex c = element_.sign * unit * jump / (2 * std::numbers::pi * (rock_.kolosov() + 1));
-    return rock_.kolosov() * c * value - std::conj(std::conj(c) * value + 2.0 * unit * height_ * turn * c * slope);
+    const Complex c = element_.sign * imaginary_unit * jump / (2 * std::numbers::pi * (rock_.kolosov() + 1));
+    return rock_.kolosov() * c * value -
+           std::conj(std::conj(c) * value + 2.0 * imaginary_unit * height_ * turn * c * slope);
   };
-  return pair(by(1), by(unit));
+  return pair(by(1), by(imaginary_unit));
 }
 
 Pair ElementField::stress(int node, Complex along) const {
@@ -260,16 +257,18 @@ Pair ElementField::stress(int node, Complex along) const {
   const double factor = rock_.shear / (std::numbers::pi * (rock_.kolosov() + 1) * element_.length);
   // N + i S of the jump 1. That of the jump i follows from it: terms with the jump are multiplied by i, terms with its
   // conjugate by −i.
-  const Complex c = element_.sign * factor * unit, forward = along * along;
-  const Complex phi = -back * c * square, with = forward * turn * c * (square - 2.0 * unit * (2 * height_) * cube),
+  const Complex c = element_.sign * factor * imaginary_unit, forward = along * along;
+  const Complex phi = -back * c * square,
+                with = forward * turn * c * (square - 2.0 * imaginary_unit * (2 * height_) * cube),
                 without = -forward * back * std::conj(c) * square;
-  return pair(2 * phi.real() + with + without, -2 * phi.imag() + unit * with - unit * without);
+  return pair(2 * phi.real() + with + without, -2 * phi.imag() + imaginary_unit * with - imaginary_unit * without);
 }
 
 Eigen::RowVector2d ElementField::trace(int node) const {
   const double factor = rock_.shear / (std::numbers::pi * (rock_.kolosov() + 1) * element_.length);
-  const Complex by = 4 * element_.sign * factor * std::conj(element_.direction) * unit * integrals_.slope[node];
-  return {by.real(), (by * unit).real()};
+  const Complex by =
+      4 * element_.sign * factor * std::conj(element_.direction) * imaginary_unit * integrals_.slope[node];
+  return {by.real(), (by * imaginary_unit).real()};
 }
 
 }  // namespace sprekk::fine_fracture

@@ -10,13 +10,13 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int n = element_nodes;
-using Powers = std::array<Complex, n>;
-using Square = Eigen::Matrix<double, n, n>;
+using Powers = std::array<Complex, element_nodes>;
+using Square = Eigen::Matrix<double, element_nodes, element_nodes>;
 
 /// The exponents of t.
-const std::array<double, n>& exponents(Density density) {
-  static constexpr std::array<double, n> whole{0, 1, 2, 3, 4}, half{0.5, 1.5, 2.5, 3.5, 4.5}, both{0, 1, 2, 0.5, 1.5};
+const std::array<double, element_nodes>& exponents(Density density) {
+  static constexpr std::array<double, element_nodes> whole{0, 1, 2, 3, 4}, half{0.5, 1.5, 2.5, 3.5, 4.5},
+      both{0, 1, 2, 0.5, 1.5};
   return density == Density::polynomial ? whole : density == Density::root ? half : both;
 }
 
@@ -24,13 +24,15 @@ const std::array<double, n>& exponents(Density density) {
 Square coefficients(Density density, int count) {
   Square values = Square::Identity();
   for (int j = 0; j < count; ++j)
-    for (int k = 0; k < n; ++k) values(j, k) = k < count ? std::pow(element_places()[j], exponents(density)[k]) : 0;
+    for (int k = 0; k < element_nodes; ++k)
+      values(j, k) = k < count ? std::pow(element_places()[j], exponents(density)[k]) : 0;
   return values.inverse();
 }
 
 const Square& coefficients(Density density) {
-  static const Square polynomial = coefficients(Density::polynomial, n), root = coefficients(Density::root, n),
-                      corner = coefficients(Density::corner, n);
+  static const Square polynomial = coefficients(Density::polynomial, element_nodes),
+                      root = coefficients(Density::root, element_nodes),
+                      corner = coefficients(Density::corner, element_nodes);
   return density == Density::polynomial ? polynomial : density == Density::root ? root : corner;
 }
 
@@ -42,7 +44,7 @@ struct Integrals {
 /// Higher powers follow from the first one, whose exponent is `first`, by t^(k + 1)/(w − t) = w t^k/(w − t) − t^k.
 void continue_from(double first, Complex w, Integrals& integrals) {
   auto& [value, slope, curvature] = integrals;
-  for (int k = 0; k + 1 < n; ++k) {
+  for (int k = 0; k + 1 < element_nodes; ++k) {
     value[k + 1] = w * value[k] - 1 / (first + k + 1);
     slope[k + 1] = value[k] + w * slope[k];
     curvature[k + 1] = 2.0 * slope[k] + w * curvature[k];
@@ -69,11 +71,11 @@ DensityIntegrals closed_form(Density density, Complex w, bool is_on) {
   }
   const Square& matrix = coefficients(density);
   DensityIntegrals result{};
-  for (int k = 0; k < n; ++k) {
+  for (int k = 0; k < element_nodes; ++k) {
     const double exponent = exponents(density)[k];
     const int power = static_cast<int>(exponent);
     const Integrals& family = exponent == power ? whole : half;
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < element_nodes; ++j) {
       result.value[j] += matrix(k, j) * family.value[power];
       result.slope[j] += matrix(k, j) * family.slope[power];
       result.curvature[j] += matrix(k, j) * family.curvature[power];
@@ -86,7 +88,7 @@ DensityIntegrals closed_form(Density density, Complex w, bool is_on) {
 struct Rule {
   struct Place {
     double t;
-    std::array<double, n> weights;
+    std::array<double, element_nodes> weights;
   };
   std::vector<Place> places;
   explicit Rule(Density density) {
@@ -112,7 +114,7 @@ DensityIntegrals by_quadrature(Density density, Complex w) {
         square(y * y * norm * norm - x * x * norm * norm, 2 * x * y * norm * norm),
         cube(-2 * (square.real() * kernel.real() - square.imag() * kernel.imag()),
              -2 * (square.real() * kernel.imag() + square.imag() * kernel.real()));
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < element_nodes; ++j) {
       result.value[j] += place.weights[j] * kernel;
       result.slope[j] += place.weights[j] * square;
       result.curvature[j] += place.weights[j] * cube;
@@ -124,9 +126,9 @@ DensityIntegrals by_quadrature(Density density, Complex w) {
 }  // namespace
 
 const std::array<double, element_nodes>& element_places() {
-  static const std::array<double, n> places = [] {
-    std::array<double, n> found;
-    for (int j = 0; j < n; ++j) found[j] = line_rule(n)[j].t;
+  static const std::array<double, element_nodes> places = [] {
+    std::array<double, element_nodes> found;
+    for (int j = 0; j < element_nodes; ++j) found[j] = line_rule(element_nodes)[j].t;
     return found;
   }();
   return places;
@@ -143,27 +145,27 @@ DensityIntegrals density_integrals_on(Density density, double t) {
 }
 
 std::array<double, element_nodes> rise_at_tip(bool fewer) {
-  const Square matrix = fewer ? coefficients(Density::root, n - 1) : coefficients(Density::root);
-  std::array<double, n> rise{};
-  for (int j = 0; j < (fewer ? n - 1 : n); ++j) rise[j] = matrix(0, j);
+  const Square matrix = fewer ? coefficients(Density::root, element_nodes - 1) : coefficients(Density::root);
+  std::array<double, element_nodes> rise{};
+  for (int j = 0; j < (fewer ? element_nodes - 1 : element_nodes); ++j) rise[j] = matrix(0, j);
   return rise;
 }
 
 std::array<double, element_nodes> slopes_at_tip() {
   // The finite part of the integral of t^(k + 1/2)/t^2 from 0 to 1 is 1/(k − 1/2), and the slope its negative.
   const Square& matrix = coefficients(Density::root);
-  std::array<double, n> slopes{};
-  for (int j = 0; j < n; ++j)
-    for (int k = 0; k < n; ++k) slopes[j] -= matrix(k, j) / (k - 0.5);
+  std::array<double, element_nodes> slopes{};
+  for (int j = 0; j < element_nodes; ++j)
+    for (int k = 0; k < element_nodes; ++k) slopes[j] -= matrix(k, j) / (k - 0.5);
   return slopes;
 }
 
 std::array<double, element_nodes> densities_at(Density density, double t) {
   const Square& matrix = coefficients(density);
-  std::array<double, n> values{};
-  for (int k = 0; k < n; ++k) {
+  std::array<double, element_nodes> values{};
+  for (int k = 0; k < element_nodes; ++k) {
     const double power = std::pow(t, exponents(density)[k]);
-    for (int j = 0; j < n; ++j) values[j] += matrix(k, j) * power;
+    for (int j = 0; j < element_nodes; ++j) values[j] += matrix(k, j) * power;
   }
   return values;
 }

@@ -4,9 +4,13 @@
 #include <array>
 #include <complex>
 
+#include "framework/types.hpp"
+
 namespace sprekk::fine_fracture {
 
 using Complex = std::complex<double>;
+inline constexpr Complex imaginary_unit{0, 1};
+inline Complex number(const Point& x) { return {x[0], x[1]}; }  ///< x + i y
 
 constexpr int element_nodes = 5;  ///< of an element of a crack: jumps are polynomials of degree 4 along it
 

@@ -4,8 +4,6 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr Complex unit{0, 1};
-
 /// Calls `add(column, value)` for the coefficients of phi and psi, each with its real and its imaginary part.
 /// of_phi(k, c), of_psi(k, c): the contribution of the coefficient c of the power k.
 template <class OfPhi, class OfPsi>
@@ -14,9 +12,9 @@ Eigen::Matrix2Xd columns(int degree, OfPhi&& of_phi, OfPsi&& of_psi) {
   int column = 0;
   const auto add = [&](Complex value) { matrix.col(column++) << value.real(), value.imag(); };
   for (int k = 1; k <= degree; ++k)
-    for (const Complex c : {Complex(1), unit}) add(of_phi(k, c));
+    for (const Complex c : {Complex(1), imaginary_unit}) add(of_phi(k, c));
   for (int k = 0; k <= degree; ++k)
-    for (const Complex c : {Complex(1), unit}) add(of_psi(k, c));
+    for (const Complex c : {Complex(1), imaginary_unit}) add(of_psi(k, c));
   return matrix;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "components/fine_fracture/growth/arc.hpp"
+#include "components/fine_fracture/growth/front_limits.hpp"
 #include "components/fine_fracture/growth/turn_slope.hpp"
 #include "framework/invariants.hpp"
 
@@ -16,14 +17,12 @@ namespace {
 /// That the leading tip advances from trial to trial: the surplus energy is integrated by trapezoids.
 constexpr double part_of_increment = 0.25;
 constexpr double length_power = 0.35;    ///< Eq. 13 of the paper
-constexpr double largest_turn = 0.3;     ///< rad, between two trials: as in `growth/front_limits.hpp`
 constexpr double full_segment = 1.5;     ///< of an increment: a longer segment is divided
 constexpr double rest_of_segment = 0.5;  ///< of an increment: the part that may still turn
 constexpr double least_part = 0.1;       ///< of the last part that regula falsi leaves
 constexpr double shortest_part = 1e-2;   ///< of an increment: a trial that cannot be solved is shortened down to this
 constexpr double least_drop = 0.02;      ///< ln(K_eq/K_IC) by which two trials this near to each other differ at a drop
 constexpr double drop_part = 1e-4;       ///< of an increment: a drop is found to this
-constexpr double at_limit = 1e-9;        ///< of a length that is at its limit, except for rounding
 constexpr double least_load = 1e-3;      ///< for the logarithm
 
 Point direction(double angle) { return {std::cos(angle), std::sin(angle)}; }

@@ -13,7 +13,7 @@ namespace {
 constexpr double round_off = 1e-13;      ///< of F: found
 constexpr double nearly = 100;           ///< round-offs: found where no step makes F smaller
 constexpr int most_steps = 60;           ///< of Newton's method
-constexpr double shortest_part = 1e-4;   ///< of a step of Newton's method
+constexpr double shortest_share = 1e-4;  ///< of a step of Newton's method
 constexpr int most_relaxations = 20000;  ///< twenty times what slopes of H of 1e-3 beside slopes of loads of 1 need
 constexpr double longest = 10;           ///< increments: further away there is no front
 
@@ -47,8 +47,8 @@ class Search {
       move(free) = -factors.solve(left(free));
       double part = 1;
       const auto moved = [&] { return Eigen::VectorXd((advances + part * move).cwiseMax(0)); };
-      while (part > shortest_part && !(unmet_at(moved()).norm() < left.norm())) part /= 2;
-      if (part <= shortest_part) return left.lpNorm<Eigen::Infinity>() < nearly * round_off;
+      while (part > shortest_share && !(unmet_at(moved()).norm() < left.norm())) part /= 2;
+      if (part <= shortest_share) return left.lpNorm<Eigen::Infinity>() < nearly * round_off;
       advances = moved();
       if (advances.maxCoeff() > longest) return false;
     }

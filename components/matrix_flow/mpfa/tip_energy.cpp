@@ -13,7 +13,7 @@ namespace sprekk::matrix_flow {
 namespace {
 
 /// Of the size of the dissipation: what a factorization leaves, and no gain of energy.
-constexpr double round_off = 1e-11;
+constexpr double of_factorization = 1e-11;
 /// For the root of an entry without any power: no division by zero.
 constexpr double above_zero = 1e-300;
 /// Shares of the tip's part of the fluxes, tried in this order: the first that gains no energy is taken.
@@ -87,7 +87,7 @@ double dissipative_part(const Eigen::MatrixXd& linear, const Eigen::MatrixXd& ad
   for (const double part : parts) {
     const Eigen::MatrixXd whole = linear + part * added;
     Eigen::MatrixXd form = scale.asDiagonal() * (0.5 * (whole + whole.transpose())) * scale.asDiagonal();
-    form.diagonal().array() += round_off * static_cast<double>(linear.rows());
+    form.diagonal().array() += of_factorization * static_cast<double>(linear.rows());
     if (DenseCholesky(form).is_positive_definite()) return part;
   }
   return 0;

@@ -12,7 +12,7 @@
 #include "framework/invariants.hpp"
 
 namespace sprekk::matrix_flow {
-namespace {
+namespace around_tips {
 
 /// The flows around all tips, for the nodes near them.
 class TipFlows {
@@ -97,7 +97,9 @@ class CellColumns {
   std::vector<double> values_;
 };
 
-}  // namespace
+}  // namespace around_tips
+
+using namespace around_tips;
 
 struct Tips::Content {
   const std::vector<Tensor>& mobility;
