@@ -54,7 +54,7 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   formulas_->set_time(context.start_time);
   evaluate_formulas();
-  stiffness_of_walls_ = stiffness_of_fractures_ = Vector::Ones(dimension * count);
+  stiffness_of_walls_ = stiffness_of_fractures_ = stiffness_of_springs_ = Vector::Ones(dimension * count);
   fracture_size_.assign(mesh_.fractures.size(), 0);
   for (const FractureCell& cell : mesh_.fracture_cells) fracture_size_[cell.fracture] += cell.measure;
   if constexpr (dimension > 2)
@@ -94,7 +94,7 @@ std::vector<double> FrictionalContact::switch_times() const {
 
 void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
   stiffness_of_walls_ = stiffness;
-  stiffness_of_fractures_ = stiffness_of_walls_;
+  stiffness_of_springs_ = stiffness_of_fractures_ = stiffness_of_walls_;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
     stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *= cell.size() / fracture_size_[cell.fracture];
@@ -108,6 +108,8 @@ void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
       tangential.setConstant(least);
       (*c)[dimension * i] = std::min((*c)[dimension * i], at_most * least / wedge);
     }
+    stiffness_of_springs_.segment<dimension - 1>(dimension * i + 1) =
+        stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1);
   }
 }
 

@@ -247,6 +247,7 @@ class FrictionalContact : public Component,
   /// together stick at once. After a failure it uses that of the walls: with the other one it may cycle between states
   /// that differ in single cells.
   Vector stiffness_of_walls_, stiffness_of_fractures_;
+  Vector stiffness_of_springs_;  ///< Pa/m, as that of fractures without the limit by friction: penalties
 };
 
 }  // namespace sprekk::contact

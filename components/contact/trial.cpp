@@ -19,7 +19,7 @@ Point FrictionalContact::compliance(int i) const {
   const bool has_springs =
       multiplier_ == Multiplier::none || (multiplier_ == Multiplier::last && !is_without_shortcuts_);
   if (!has_springs) return Point::Zero();
-  const Vector& rock = multiplier_ == Multiplier::last ? stiffness_of_walls_ : stiffness_of_fractures_;
+  const Vector& rock = multiplier_ == Multiplier::last ? stiffness_of_walls_ : stiffness_of_springs_;
   return (stiffness_factor_ * rock.segment<dimension>(dimension * i)).cwiseInverse();
 }
 

@@ -83,6 +83,17 @@ INSTANTIATE_TEST_SUITE_P(
                             "friction: 1, closure: {law: formula, closure: \"sigma_n*3 mm/(5 Pa/m*3 mm + sigma_n)\"}"},
                       Twins{{0, 0}, {1e-3, 5e-4}, "friction: 0.5", "friction: \"0.5 + 0*slip/m\""}));
 
+/// How stiff the springs of a penalty are does not depend on the friction, and so not on how it is written.
+TEST(ContactFormulas, OfAPenaltyKeepItsSprings) {
+  const Point traction(-0.02, 0.01), jump(5e-3, 2e-3);
+  SceneRun known = SceneRun::from_text(scene("penalty", traction, jump, "friction: 0.4, dilation_angle: 1.2 rad"));
+  SceneRun run = SceneRun::from_text(
+      scene("penalty", traction, jump, "friction: \"0.4 + 0*slip/m\", dilation: \"slip*tan(1.2)\""));
+  ASSERT_TRUE(known.step() && run.step());
+  const Vector difference = run.field("contact.jump") - known.field("contact.jump");
+  EXPECT_LE(difference.lpNorm<Eigen::Infinity>(), 1e-12 * known.field("contact.jump").lpNorm<Eigen::Infinity>());
+}
+
 /// Jumps and tractions of a patch that slips, against those that fulfil the law.
 void expect_uniform(const Point& traction, const Point& jump, const std::string& laws) {
   for (const double factor : {1.0, 1 + 1e-9}) {
