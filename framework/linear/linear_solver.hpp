@@ -132,6 +132,20 @@ class LinearSolver {
   LinearCounts counts_;
 };
 
+/// What it costs to condense a bulk of n unknowns onto f interface unknowns, in factorizations of the bulk: f / columns
+/// for the columns of A_BB^-1 A_BF, and (f / (width n^power))^3 for the dense part of each reduced system
+/// (docs/performance.md, "What condensing costs").
+struct CondensingCosts {
+  double columns = 200, columns_at_once = 700;  ///< at_once: they come with the factorization
+  double width = 7, power = 0.5;                ///< in a plane, from 4,000 to 250,000 unknowns
+  /// The cost of columns, over what a system saves, up to which a bulk is condensed at once; others wait for as many
+  /// systems. The number of systems for which a bulk will stay is unknown; it is about three, those of one step, or
+  /// more. Compared with the best choice, condensing at once costs at most (1 + C) / 3 times as much, if the bulk stays
+  /// for three systems only; waiting for C systems first costs at most (1 + 2 C) / (1 + C) times as much, if the bulk
+  /// stays longer. Both are equal at C = 2 + sqrt(6).
+  double worth_at_once = 4.4;
+};
+
 /// Parameters of the linear solver: those of a scene's `solver:`, and what the schedule knows.
 struct LinearOptions {
   std::string type = "auto";  ///< auto, umfpack, mumps, belos
@@ -147,6 +161,7 @@ struct LinearOptions {
   /// Unknowns up to which `auto` solves a system directly after all, where GMRES does not converge. In a plane there
   /// are none beyond `largest_for_direct`: memory is the limit.
   int largest_for_direct_instead = 0;
+  CondensingCosts condensing = {};
 };
 
 /// `auto`: UMFPACK for small systems in one process, MUMPS for larger ones, where the bulk changes often and in several

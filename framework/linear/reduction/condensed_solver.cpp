@@ -108,20 +108,15 @@ bool is_lost(const BulkSplitting& split, const SparseMatrix& reduced,
 }
 
 /// The number of systems for which a bulk has to stay until condensing has paid for the columns of X, or infinity. The
-/// unit of cost is a factorization of the bulk, with its ordering. Then f columns cost C = f / 200, and the dense part
-/// of a reduced system R = (f / (7 sqrt(n)))^3, measured from 4,000 to 250,000 unknowns (docs/performance.md); so m
-/// systems cost 1 + C + m R instead of m. Columns that come with the factorization (`is_short_lived`) cost f / 700 or
-/// less.
-double cost_of_columns(const BulkSplitting& split, bool is_short_lived) {
-  const double f = split.interface_columns.size(), reduced = std::pow(f / (7 * std::sqrt(split.bulk_size())), 3);
-  return reduced < 1 ? f / (is_short_lived ? 700 : 200) / (1 - reduced) : HUGE_VAL;
+/// unit of cost is a factorization of the bulk, with its ordering. Then the columns cost C, and the dense part of a
+/// reduced system R (CondensingCosts); so m systems cost 1 + C + m R instead of m.
+double cost_of_columns(const BulkSplitting& split, const LinearOptions& options) {
+  const CondensingCosts& costs = options.condensing;
+  const double f = split.interface_columns.size();
+  const double reduced = std::pow(f / (costs.width * std::pow(split.bulk_size(), costs.power)), 3);
+  return reduced < 1 ? f / (options.bulk_changes_often ? costs.columns_at_once : costs.columns) / (1 - reduced)
+                     : HUGE_VAL;
 }
-
-/// The cost of columns up to which a bulk is condensed at once. The number of systems for which a bulk will stay is
-/// unknown; it is about three, those of one step, or more. Compared with the best choice, condensing at once costs at
-/// most (1 + C) / 3 times as much, if the bulk stays for three systems only; waiting for C systems first costs at most
-/// (1 + 2 C) / (1 + C) times as much, if the bulk stays longer. Both are equal at C = 2 + sqrt(6).
-constexpr double worth_at_once = 4.4;
 
 }  // namespace
 
@@ -186,8 +181,8 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   Bulk& bulk = bulks_.front();
   ++bulk.systems;
   if (!bulk.is_tried) {
-    const double cost = cost_of_columns(split, options_.bulk_changes_often);
-    if (cost > worth_at_once && bulk.systems <= cost)
+    const double cost = cost_of_columns(split, options_);
+    if (cost > options_.condensing.worth_at_once && bulk.systems <= std::max(1.0, cost))
       return LinearReport::failure("condensing costs more than the few systems that the bulk has had so far");
     bulk.report = bulk.schur.compute(split, *bulk.solver, options_.bulk_changes_often);
     bulk.is_tried = true;
