@@ -36,7 +36,12 @@ double value_at_state(const Data& data, const Place& place, const StateVariables
   std::ranges::fill(by, 0);
   const StateNow state{variables, values, by, nullptr};
   const Seen seen(state);
-  return data.at(place);
+  try {
+    return data.at(place);
+  } catch (const DataError& error) {
+    if (variables_named(data, place, variables) == 0) throw;
+    throw StateError(error.what());
+  }
 }
 
 std::uint32_t variables_named(const Data& data, const Place& place, const StateVariables& variables) {

@@ -19,8 +19,16 @@ struct StateVariable {
 /// The variables of the formulas of one parameter, at most formula::most_derivatives.
 using StateVariables = std::vector<StateVariable>;
 
+/// A formula has no value in a state, or one outside of its range. While an equation is solved, another state may have
+/// one.
+class StateError : public DataError {
+ public:
+  using DataError::DataError;
+};
+
 /// The value of a datum where the state has these values, one for each variable. A datum that is a formula sets `by` to
-/// its derivatives by them, all others to zero; an empty `by` is left alone. Throws DataError as Data::at does.
+/// its derivatives by them, all others to zero; an empty `by` is left alone. Throws as Data::at does, StateError where
+/// the value depends on the state.
 double value_at_state(const Data& data, const Place& place, const StateVariables& variables,
                       std::span<const double> values, std::span<double> by = {});
 

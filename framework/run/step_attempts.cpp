@@ -7,6 +7,7 @@
 #include <new>
 #include <optional>
 
+#include "framework/config/state.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/limits_step.hpp"
@@ -40,6 +41,9 @@ std::optional<StepAttempts::Outcome> StepAttempts::try_once(bool may_be_interrup
     std::optional<interruption::Allowed> allowed;
     if (may_be_interrupted) allowed.emplace();
     status_ = growth_.attempt(step_);
+    return std::nullopt;
+  } catch (const StateError& error) {
+    status_ = {.converged = false, .reason = error.what()};
     return std::nullopt;
   } catch (const DataError& error) {
     return give_up(name() + " has no data: " + error.what());

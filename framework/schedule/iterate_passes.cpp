@@ -7,6 +7,7 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/piecewise_smooth.hpp"
+#include "framework/config/state.hpp"
 #include "framework/schedule/iterate_step.hpp"
 #include "framework/schedule/passes/ends_of_passes.hpp"
 #include "framework/schedule/passes/pass_changes.hpp"
@@ -32,8 +33,12 @@ class IterateStep::Passes {
   }
 
   StepStatus run() {
-    for (number_ = 1; number_ <= own_.options_.until.at_most; ++number_)
-      if (const std::optional<StepStatus> end = pass()) return *end;
+    try {
+      for (number_ = 1; number_ <= own_.options_.until.at_most; ++number_)
+        if (const std::optional<StepStatus> end = pass()) return *end;
+    } catch (const StateError& error) {  // passes that diverge lead to states for which formulas are not made
+      return failed(fmt::format("pass {}: {}", number_, error.what()));
+    }
     return without_convergence();
   }
 
@@ -96,7 +101,7 @@ class IterateStep::Passes {
     change_ = number_ > 1 ? Vector(own_.scaled_values() - before_) : Vector();
     if (own_.log_)
       own_.log_({step_, "iterate", number_, check_.largest, check_.equation, change_.norm(), 1, check_.of_equations});
-    if (!check_.finite) return failed((has_substeps() ? "" : "the residual of ") + check_.equation + " is not finite");
+    if (!check_.finite) return failed(has_substeps() ? check_.equation + " is not finite" : check_.why_not_finite());
     const auto residual_holds = [&](double bound) {
       if (has_substeps()) return number_ > 2 && is_error_below(bound, check_.largest, change_before);
       return bound == tightest ? check_.converged : check_residual(assembly, own_.system_, bound).converged;

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "framework/config/state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -166,8 +167,9 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool
   length = 1;
   for (int halvings = 0; halvings < (ask_for_descent ? for_descent : for_finite); ++halvings, length /= 2) {
     move(from, update, length);
-    const ResidualCheck check = evaluate(step);
+    const ResidualCheck check = evaluate_trial(step);
     const double merit = check.merit(recent_.back());
+    if (!check.finite) best.without_value = check.without_value;
     if (check.finite && (best_length == 0 || merit < best_merit)) {
       best_merit = merit;
       best = check;
@@ -186,6 +188,17 @@ ResidualCheck Newton::take_step(const StepTime& step, const Vector& update, bool
   }
   length = best_length;
   return best;
+}
+
+ResidualCheck Newton::evaluate_trial(const StepTime& step) {
+  try {
+    return evaluate(step);
+  } catch (const StateError& error) {
+    ResidualCheck check;
+    check.finite = false;
+    check.without_value = error.what();
+    return check;
+  }
 }
 
 ResidualCheck Newton::evaluate(const StepTime& step) {
@@ -302,7 +315,7 @@ StepStatus Newton::iterate(const StepTime& step, int undamped, Until until) {
   if (log_) log_({step, name_, 0, check.largest, check.equation, 0, 1, check.of_equations});
   for (int iteration = 0;; ++iteration) {
     const auto fails = [iteration](std::string reason) { return StepStatus{false, std::move(reason), iteration}; };
-    if (!check.finite) return fails("the residual of " + check.equation + " is not finite");
+    if (!check.finite) return fails(check.why_not_finite());
     if (is_small(check, iteration, seen) && is_settled_solution(step, check, iteration, seen.has_factors))
       return {true, "", iteration};
     is_used_up_ = iteration == options_.at_most;

@@ -85,6 +85,8 @@ class Newton {
   /// Assembles residual and derivatives at the current values of the fields, and checks the residual. Derivatives are
   /// always included: most evaluated states are accepted, and derivatives of linear terms cost nothing.
   ResidualCheck evaluate(const StepTime& step);
+  /// The same at values that may be too far away for formulas to have a value: the residual is not finite then.
+  ResidualCheck evaluate_trial(const StepTime& step);
   std::uint64_t discrete_state() const;
   std::vector<Vector> values() const;
   void move(const std::vector<Vector>& from, const Vector& update, double length);

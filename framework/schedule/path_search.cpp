@@ -92,7 +92,7 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
   ResidualCheck check = evaluate(step);
   for (int iteration = 0; iteration < options_.pieces; ++iteration) {
     const auto fails = [iteration](const std::string& reason) { return StepStatus{false, reason, iteration + 1}; };
-    if (!check.finite) return fails("the residual of " + check.equation + " is not finite");
+    if (!check.finite) return fails(check.why_not_finite());
     const LinearSystem& system = system_.matrix(*assembly_);
     const LinearReport factoring = linear_->factor(system);
     if (!factoring.solved) return fails("singular system: " + factoring.reason);
@@ -130,7 +130,8 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
     const double length = crossing ? crossing->behind : 1;
     share *= is_reversed ? 1 + length : 1 - length;
     move(from, update, length);
-    check = evaluate(step);
+    check = evaluate_trial(step);
+    if (!check.finite) continue;
     if (log_)
       log_({step, name_, iteration, check.largest, check.equation, relative_size(update, check),
             is_reversed ? -length : length, check.of_equations});

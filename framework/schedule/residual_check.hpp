@@ -13,6 +13,7 @@ namespace sprekk {
 /// How the residuals of an assembly compare with their terms; all figures are relative unless said otherwise.
 struct ResidualCheck {
   bool finite = true;
+  std::string without_value;   ///< where a formula has none: what it says, and the residual is not finite
   bool converged = false;      ///< rows_hold, balances_hold and each_row_holds
   bool rows_hold = false;      ///< every residual is small against its terms
   bool balances_hold = true;   ///< the residuals of each conserved quantity are small against its throughput
@@ -32,6 +33,9 @@ struct ResidualCheck {
   /// The sum over the equations of mean squared residuals, each relative to the magnitude of its terms in `scales`.
   /// The scales of one state make two other states comparable: terms that grow with the unknowns would hide progress.
   double merit(const ResidualCheck& scales) const;
+  std::string why_not_finite() const {
+    return without_value.empty() ? "the residual of " + equation + " is not finite" : without_value;
+  }
 };
 
 /// Errors of balances, of one row or of all, may be so many times the tolerance of residuals.
