@@ -193,7 +193,7 @@ std::vector<std::pair<std::string, std::string>> data_keys() {
       {"{value: …, from: …, to: …}", {"value", "from", "to"}},
       {"{table: …, column: …, of: …, unit: …}", {"table", "column", "of", "unit"}},
       {"{regions: {NAME: …, default: …}}", {"regions", "default"}},
-      {"{fractures: {NAME: …, default: …}}", {"fractures"}}};
+      {"{fractures: {NAME: …, default: …}}", {"fractures", "default"}}};
   std::vector<std::pair<std::string, std::string>> keys;
   for (const auto& [form, names] : known)
     for (const std::string& name : names) keys.emplace_back(name, form);

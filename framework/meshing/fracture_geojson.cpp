@@ -45,17 +45,21 @@ Point point_of(const Node& position) {
   return point;
 }
 
+/// Points that follow themselves, as digitized lines have them, are one.
 std::vector<Point> points_of(const Node& positions) {
   if (!positions.is_list()) throw InputError(positions.origin, "the coordinates are no list of positions");
   std::vector<Point> points;
-  for (const Node& position : positions.items) points.push_back(point_of(position));
+  for (const Node& position : positions.items)
+    if (const Point point = point_of(position); points.empty() || point != points.back()) points.push_back(point);
   return points;
 }
 
 /// The lines, or polygons, of a geometry. The first point of a ring, which ends it too, is left out.
 std::vector<std::vector<Point>> shapes_of(const Node& geometry) {
   const std::string& type = member(geometry, "type").scalar;
-  const Node& coordinates = member(geometry, "coordinates");
+  static const Node nothing;
+  const Node* const given = geometry.find("coordinates");  // a GeometryCollection has none
+  const Node& coordinates = given ? *given : nothing;
   if (dimension == 2 && type == "LineString") return {points_of(coordinates)};
   std::vector<std::vector<Point>> shapes;
   if (dimension == 2 && type == "MultiLineString") {
@@ -91,6 +95,8 @@ class Reader {
 
   std::vector<FractureGeometry> read(const std::string& content, const Origin& where) {
     const Node root = parse_yaml(content, file_);  // JSON is a part of YAML
+    if (!root.is_map())
+      throw InputError(where, fmt::format("the file '{}' is no GeoJSON", file_), "it is an object in { }");
     const std::string& type = member(root, "type").scalar;
     require_metres(root);
     if (type == "Feature") {

@@ -95,7 +95,7 @@ TEST_F(FractureTables, MayBeGeoJson) {
 	{"type": "Feature", "properties": {"name": "north", "friction": 0.4, "aperture[mm]": 2, "size[cm]": 5, "rock": "granite"},
    "geometry": {"type": "LineString", "coordinates": [[1.5, 2, 77.0], [3e0, -4.25, 77.0]]}},
   {"type": "Feature", "id": 12, "properties": null,
-   "geometry": {"type": "MultiLineString", "coordinates": [[[0, 0], [1, 0], [1, 2]], [[5, 5], [6, 7]]]}},
+   "geometry": {"type": "MultiLineString", "coordinates": [[[0, 0], [1, 0], [1, 0], [1, 2]], [[5, 5], [6, 7]]]}},
   {"type": "Feature", "properties": {}, "geometry": null},
   {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[0, 9], [1, 9]]}}]})",
                               "f.geojson");
@@ -130,7 +130,10 @@ TEST_F(FractureTables, OfGeoJsonSayWhatIsWrongAndWhere) {
   EXPECT_THAT(mistake_of_json(R"({"type": "FeatureCollection",
 "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}, "features": []})"),
               ::testing::StartsWith("f.geojson:2:8: the coordinates are degrees"));
-  EXPECT_THAT(mistake_of_json("[1, 2]"), ::testing::StartsWith("f.geojson:1:1: the GeoJSON object has no 'type'"));
+  EXPECT_THAT(mistake_of_json(with(R"({"type": "GeometryCollection", "geometries": []})")),
+              ::testing::StartsWith("f.geojson:2:33: a 'GeometryCollection' is no fracture"));
+  for (const char* text : {"[1, 2]", ""})
+    EXPECT_THAT(mistake_of_json(text), ::testing::StartsWith("scene.yaml:3: the file 'f.geojson' is no GeoJSON"));
 }
 
 TEST_F(FractureTables, HaveAnOriginOfTheirOwn) {

@@ -223,6 +223,28 @@ TEST(SnapGeometry, LongLinesAreThinnedOut) {
   }
 }
 
+/// What lies twice in one line is not left out without a word; a hook no longer than what is joined is.
+TEST(SnapGeometry, LinesThatFoldBackAreRefused) {
+  const std::vector<std::vector<Point>> folded = {{{10, 10}, {50, 40}, {30, 25}},
+                                                  {{10, 10}, {50, 40}, {30, 25.005}},
+                                                  {{10, 10}, {50, 40}, {2, 4}},
+                                                  {{10, 10}, {30, 25}, {20, 17.5}, {50, 40}},
+                                                  {{10, 10}, {30, 25}, {30, 60}, {30, 25}, {50, 20}}};
+  for (const std::vector<Point>& points : folded)
+    for (const double turn : {0.0, 1.0}) {
+      Geometry geometry = box(-100, 100, -100, 100);
+      std::vector<Point> turned;
+      const double c = std::cos(turn), s = std::sin(turn);
+      for (const Point& x : points) turned.emplace_back(c * x[0] - s * x[1], s * x[0] + c * x[1]);
+      geometry.fractures.push_back(fracture("hook", turned));
+      snap_geometry(geometry, coarse);
+      EXPECT_THAT(input_error([&] { validate_geometry(geometry, coarse); }), HasSubstr("'hook' meets itself"));
+    }
+  Geometry geometry = box(-100, 100, -100, 100);
+  geometry.fractures.push_back(fracture("end", {{10, 10}, {50, 40}, {49.975, 39.985}}));
+  EXPECT_NEAR(network(snapped(geometry)).length, 50, 0.04);
+}
+
 /// Within seconds: the time grows hardly faster than the number of lines.
 TEST(SnapGeometry, ManyFracturesAreCheckedTogether) {
   Geometry geometry = box(0, 1000, 0, 1000);

@@ -157,8 +157,10 @@ class Joiner {
     return true;
   }
 
-  /// Leaves out steps from a place to itself, and steps to a place and back.
+  /// Leaves out steps from a place to itself, and steps to a place and back that joining has made: a line that folds
+  /// back over more is refused later (validate_fracture).
   void rename_places() {
+    constexpr double most_folded = 2;  // of `reach`, by which both ends of a step may have moved
     for (std::size_t l = 0; l < lines_.size(); ++l) {
       JoinedLine shorter;
       const JoinedLine& line = lines_[l];
@@ -169,7 +171,8 @@ class Joiner {
           continue;
         }
         const std::size_t count = shorter.places.size();
-        if (!is_closed_[l] && count >= 2 && shorter.places[count - 2] == next) {
+        const bool goes_back = !is_closed_[l] && count >= 2 && shorter.places[count - 2] == next;
+        if (goes_back && (places_[shorter.places.back()].at - places_[next].at).norm() < most_folded * reach_) {
           shorter.places.pop_back();
           shorter.points.pop_back();
           continue;
