@@ -58,10 +58,12 @@ Variables variables_at(const Place& place, std::span<const double> state = {}) {
   return variables;
 }
 
-bool names_state(const formula::Program& program, const StateVariables& state) {
-  for (std::size_t k = 0; k < state.size(); ++k)
-    if (program.uses(static_cast<int>(first_of_state + k))) return true;
-  return false;
+/// The variables of the state that it names, a bit for each.
+std::uint32_t state_named(const formula::Program& program, std::size_t variables) {
+  std::uint32_t named = 0;
+  for (std::size_t k = 0; k < variables; ++k)
+    if (program.uses(static_cast<int>(first_of_state + k))) named |= 1U << k;
+  return named;
 }
 
 /// A step whose solution lies where a formula jumps has none.
@@ -90,6 +92,7 @@ struct Expression {
   double scale;
   Origin where;
   formula::Program program;
+  std::uint32_t named = 0;  ///< of the state, as state_named
 
   void require_finite(double value, const char* what, const Place& place) const {
     if (!std::isfinite(value))
@@ -109,9 +112,7 @@ struct Expression {
     if (!state)
       throw DataError(fmt::format("{}: the expression {} is a formula of the state, and is needed where there is none",
                                   where.text(), quoted(text)));
-    if (state->named)
-      for (std::size_t k = 0; k < state->values.size(); ++k)
-        if (program.uses(static_cast<int>(first_of_state + k))) *state->named |= 1U << k;
+    *state->named |= named;
     const Variables variables = variables_at(place, state->values);
     const formula::Dual dual =
         state->by.empty() ? formula::Dual{program.at(variables)} : program.at(variables, first_of_state);
@@ -132,6 +133,7 @@ std::string place_text(const Place& place) {
   text += fmt::format("t = {}", place.t);
   const StateNow* state = state_now();
   for (std::size_t k = 0; state && k < state->values.size(); ++k) {
+    if ((*state->named >> k & 1U) == 0) continue;
     const auto& [name, unit, doc] = state->variables[k];
     text += fmt::format(", {} = {:.6g}{}{}", name, state->values[k], unit.empty() ? "" : " ", unit);
   }
@@ -142,10 +144,11 @@ Data parse_expression(const std::string& text, double scale, const Origin& where
                       const StateVariables& state) {
   const auto expression = std::make_shared<Expression>(text, scale, where, parse(text, state, where).program);
   const formula::Program& program = expression->program;
+  expression->named = state_named(program, state.size());
   bool uses_space = false;
   for (int k = 0; k < dimension; ++k) uses_space = uses_space || program.uses(k);
   const bool uses_time = program.uses(time_index);
-  if (names_state(program, state)) {
+  if (expression->named != 0) {
     refuse_jump(program, state, text, name, where);
     return Data([expression](const Place& place) { return expression->at_state(place); }, uses_time, true);
   }
@@ -214,7 +217,7 @@ LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, con
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::exp(1e-2 * std::sqrt(squares[i]));
   if (dimension.exponents[4] == 0) sizes[4] = 1;
   const formula::Parsed parsed = parse(text, state, where);
-  const bool of_state = names_state(parsed.program, state);
+  const bool of_state = state_named(parsed.program, state.size()) != 0;
   if (is_length && !of_state) sizes[0] = 1;
   const bool has_units = parsed.mentions_unit || of_state;
   if (!has_units && (is_length || dimension == Dimension{})) return LackOfUnit::none;

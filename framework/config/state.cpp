@@ -34,12 +34,13 @@ const StateNow* state_now() { return now; }
 double value_at_state(const Data& data, const Place& place, const StateVariables& variables,
                       std::span<const double> values, std::span<double> by) {
   std::ranges::fill(by, 0);
-  const StateNow state{variables, values, by, nullptr};
+  std::uint32_t named = 0;
+  const StateNow state{variables, values, by, &named};
   const Seen seen(state);
   try {
     return data.at(place);
   } catch (const DataError& error) {
-    if (variables_named(data, place, variables) == 0) throw;
+    if (named == 0) throw;
     throw StateError(error.what());
   }
 }
@@ -59,7 +60,7 @@ std::uint32_t variables_named(const Data& data, const Place& place, const StateV
 
 WithoutDerivatives::WithoutDerivatives() : before_(now) {
   if (!now) return;
-  without_.emplace(StateNow{now->variables, now->values, {}, nullptr});
+  without_.emplace(StateNow{now->variables, now->values, {}, now->named});
   now = &*without_;
 }
 

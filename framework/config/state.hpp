@@ -62,7 +62,7 @@ struct StateNow {
   const StateVariables& variables;
   std::span<const double> values;
   std::span<double> by;
-  std::uint32_t* named;  ///< takes a bit for each variable that is named; may be null
+  std::uint32_t* named;  ///< takes a bit for each variable that is named
 };
 /// The state that a formula has to take now; nullptr outside of value_at_state.
 const StateNow* state_now();

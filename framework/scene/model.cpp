@@ -140,7 +140,7 @@ void Model::require_held() {
   refusing_bad_data([&] { prepare(first); });
   now_doing("looking for what nothing holds");
   // The state from which the first step starts is not known before it has settled.
-  (settle_ ? *settle_ : *schedule_).require_held(first);
+  refusing_bad_data([&] { (settle_ ? *settle_ : *schedule_).require_held(first); });
 }
 
 namespace {
