@@ -95,7 +95,9 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_, outputs);
   require_values_at_probes(scene_.output, components_, mesh_);
   std::vector<Quantity> others;
-  for (const Part* part : parts_) part->report(others);
+  refusing_bad_data([&] {
+    for (const Part* part : parts_) part->report(others);
+  });
   for (const auto& [name, balance] : balances())
     for (const char* what : {"_stored", "_injected", "_outflow", "_balance_error"})
       others.push_back({name + what, balance.unit, 0});

@@ -111,7 +111,7 @@ TEST(Formula, TellsTheStateInWhichItHasNoValue) {
   EXPECT_THAT(
       runtime_error_of([] { at(formula("log(1 - slip/m)"), 2, 1e6); }),
       HasSubstr("s.yaml:3:4: the expression 'log(1 - slip/m)' has no finite value at x = 0.3, y = -2, t = 5000, "
-                "slip = 2 m, sigma_n = 1e+06 Pa (it is no number"));
+                "slip = 2 m (it is no number"));
   EXPECT_THAT(runtime_error_of([] { at(formula("sqrt(slip/m)"), 0, 0); }), HasSubstr("has no finite derivative at"));
   Data friction;
   Spec spec("test", "A test.");
