@@ -21,6 +21,7 @@ struct FrameOutputChoice {
   /// Throws InputError for what cannot be written of this state, the one before the first step; null where nothing of
   /// it is asked.
   std::function<void(const Frame& start)> check;
+  std::function<bool()> has_nothing_to_check = [] { return false; };
 };
 
 /// All outputs of the program.
@@ -41,8 +42,9 @@ class FrameOutputRegistry {
 
 /// Registers an output when it is constructed. Options is a struct with `Spec spec()`, whose targets are its own
 /// members and whose text says what is written, and `std::unique_ptr<FrameOutput> build(const OutputPlace&) const`; it
-/// may have `void check(const Frame& start) const`. Its parameters are a section. An output whose key is no section
-/// declares the key itself, by `void declare(Spec&, const std::string& name)` and `bool is_chosen() const`.
+/// may have `void check(const Frame& start) const` and `bool has_nothing_to_check() const`. Its parameters are a
+/// section. An output whose key is no section declares the key itself, by `void declare(Spec&, const std::string&
+/// name)` and `bool is_chosen() const`.
 template <class Options>
 struct RegisterFrameOutput {
   explicit RegisterFrameOutput(const std::string& name) {
@@ -57,6 +59,8 @@ struct RegisterFrameOutput {
     choice.build = [options](const OutputPlace& place) { return options->build(place); };
     if constexpr (requires(const Frame& start) { options->check(start); })
       choice.check = [options](const Frame& start) { options->check(start); };
+    if constexpr (requires { options->has_nothing_to_check(); })
+      choice.has_nothing_to_check = [options] { return options->has_nothing_to_check(); };
     if constexpr (requires { options->declare(output, name); }) {
       options->declare(output, name);
       choice.is_chosen = [options] { return options->is_chosen(); };

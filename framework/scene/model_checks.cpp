@@ -10,7 +10,8 @@ namespace sprekk {
 
 void Model::check_outputs() const {
   std::vector<FrameOutputChoice> outputs = scene_.output.chosen_outputs();
-  std::erase_if(outputs, [](const FrameOutputChoice& output) { return !output.check; });
+  std::erase_if(outputs,
+                [](const FrameOutputChoice& output) { return !output.check || output.has_nothing_to_check(); });
   if (outputs.empty()) return;
   const std::vector<OutputField> fields = output();
   const Frame start{scene_.time.start, 0, mesh_, fields, {}};

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """output_lines_test.py SPREKK: tables along lines have a linear pressure and its velocity exactly, also on two processes and after a
-restart, and what cannot be written is refused before any work."""
+restart, files have the chosen fields, and what cannot be written is refused before any work."""
 
 import csv
+import re
 import subprocess
 import sys
 import tempfile
@@ -62,7 +63,7 @@ def check(folder):
 
 
 def expect_refusal(scene, setting, *words):
-    done = subprocess.run([program, "check", scene, "--set", f"output.{setting}"], capture_output=True, text=True, check=False)
+    done = subprocess.run([program, "check", scene, "--set", f"output{setting}"], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and all(word in done.stderr for word in words), done
 
 
@@ -83,9 +84,20 @@ with tempfile.TemporaryDirectory() as name:
     check(scratch / "on")
 
     line = "{of: pore.pressure, from: [0 m, 0 m], to: [1 m, 0 m]}"
-    expect_refusal(path, "lines.a=" + line.replace("pressure", "presure"), "unknown field", "pore.pressure")
-    expect_refusal(path, "lines.a=" + line.replace("1 m", "3 m"), "leaves the rock")
-    expect_refusal(path, "lines.a=" + line.replace("1 m", "0 m"), "no length")
-    expect_refusal(path, "lines={a/b: " + line + "}", "'/'")
-    expect_refusal(path, "lines.a=" + line.replace("}", ", points: 1}"), "points")
-    print("lines: as they should be")
+    expect_refusal(path, ".lines.a=" + line.replace("pressure", "presure"), "unknown field", "pore.pressure")
+    expect_refusal(path, ".lines.a=" + line.replace("1 m", "3 m"), "leaves the rock")
+    expect_refusal(path, ".lines.a=" + line.replace("1 m", "0 m"), "no length")
+    expect_refusal(path, ".lines={a/b: " + line + "}", "'/'")
+    expect_refusal(path, ".lines.a=" + line.replace("}", ", points: 1}"), "points")
+
+    # Of the fields for ParaView those that are chosen, on one process and on two.
+    for processes in (1, 2):
+        for chosen, kept in (("pore.pressure", {"pore.pressure[Pa]"}), ("[pore.*]", {"pore.pressure[Pa]", "pore.velocity[m/s]"})):
+            folder = scratch / f"chosen_{len(chosen)}_{processes}"
+            run(path, folder, "--set", "output.fields=true", "--set", f"output.only={chosen}", processes=processes)
+            names = set(re.findall(r'Name="(pore[^"]*)"', (folder / "matrix_000004.vtu").read_text(encoding="latin-1")))
+            assert names == kept, (chosen, names)
+    expect_refusal(path, ".only=[pore.presure]", "no fields are written")
+    for wrong in ("pore.presure", "rock.*", "pore"):
+        expect_refusal(path, f"={{fields: true, only: [pore.pressure, {wrong}]}}", "unknown field", wrong, "pore.velocity")
+    print("outputs: as they should be")
