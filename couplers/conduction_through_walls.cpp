@@ -179,8 +179,8 @@ class Exchange : public Coupler {
 class HeatExchange : public Exchange {
  public:
   HeatExchange(const CouplerContext& context, const HeatExchangeOptions& options)
-      : Exchange(context, options, context.the<MatrixTemperature>(), context.the<HeatWalls>(),
-                 context.the<FractureTemperature>()) {}
+      : Exchange{context, options, context.the<MatrixTemperature>(), context.the<HeatWalls>(),
+                 context.the<FractureTemperature>()} {}
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     note_insulated<HeatWalls, FractureTemperature>(carried_heat, components, notes);
   }
@@ -190,8 +190,8 @@ class HeatExchange : public Exchange {
 class TracerExchange : public Exchange {
  public:
   TracerExchange(const CouplerContext& context, const TracerExchangeOptions& options)
-      : Exchange(context, options, context.the<MatrixConcentration>(), context.the<TracerWalls>(),
-                 context.the<FractureConcentration>()) {}
+      : Exchange{context, options, context.the<MatrixConcentration>(), context.the<TracerWalls>(),
+                 context.the<FractureConcentration>()} {}
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     note_insulated<TracerWalls, FractureConcentration>(carried_tracer, components, notes);
   }

@@ -14,6 +14,7 @@ namespace sprekk {
 /// What is carried: its words and units. A cell holds its value times a capacity.
 struct Carried {
   std::string quantity;       ///< of the balance: "heat"
+  std::string matrix_type;    ///< of components in the matrix, without the discretization: "matrix_heat"
   std::string value;          ///< the unknown: "temperature"
   std::string unit;           ///< of the value
   std::string flux_unit;      ///< of what is conducted per area

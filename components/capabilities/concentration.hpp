@@ -17,6 +17,7 @@ inline UsualRange usual_diffusion() {
 /// times the retardation factor, in m^2 (in space m^3).
 inline const Carried carried_tracer = {
     "tracer",
+    "matrix_transport",
     "concentration",
     "kg/m^3",
     "kg/(m^2*s)",

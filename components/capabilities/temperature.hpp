@@ -8,6 +8,7 @@ namespace sprekk {
 
 /// Heat: temperatures in K, amounts in J/m (in space J). A capacity is a heat capacity in J/(m K) (in space J/K).
 inline const Carried carried_heat = {"heat",
+                                     "matrix_heat",
                                      "temperature",
                                      "K",
                                      "W/m^2",

@@ -238,10 +238,10 @@ void MatrixTransport::note_step(Notes& notes, const StepTime& step) const {
       value_.name() + " beyond its surroundings",
       fmt::format("{} is higher or lower than all around it in {} cells without a source, by up to {:.3g} {}, {:.2g} "
                   "% of the range of {}s, at {} (where cells are flat or the {} is anisotropic, multi-point fluxes "
-                  "keep no bounds); use smaller cells of better shape there, or the type with /tpfa, which keeps "
+                  "keep no bounds); use smaller cells of better shape there, or {}/tpfa, which keeps "
                   "bounds and is exact where faces are at right angles to the lines between centres",
                   value_.name(), found.cells, found.largest, carried_.unit, 100 * found.largest / found.range,
-                  carried_.value, carried_.conductivity, to_text(mesh_.cell_center[found.cell])),
+                  carried_.value, to_text(mesh_.cell_center[found.cell]), carried_.conductivity, carried_.matrix_type),
       found.largest);
 }
 

@@ -424,8 +424,8 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
 class HeatAdvection : public Advection {
  public:
   HeatAdvection(const CouplerContext& context, const HeatAdvectionOptions& options)
-      : Advection(context, carried_heat, options, context.find<MatrixTemperature>(),
-                  context.find<FractureTemperature>()) {}
+      : Advection{context, carried_heat, options, context.find<MatrixTemperature>(),
+                  context.find<FractureTemperature>()} {}
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     note_not_carried<MatrixTemperature, FractureTemperature>(carried_heat, components, notes);
   }
@@ -435,8 +435,8 @@ class HeatAdvection : public Advection {
 class TracerAdvection : public Advection {
  public:
   TracerAdvection(const CouplerContext& context, const TracerAdvectionOptions& options)
-      : Advection(context, carried_tracer, options, context.find<MatrixConcentration>(),
-                  context.find<FractureConcentration>()) {}
+      : Advection{context, carried_tracer, options, context.find<MatrixConcentration>(),
+                  context.find<FractureConcentration>()} {}
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
     note_not_carried<MatrixConcentration, FractureConcentration>(carried_tracer, components, notes);
     bool flows = false;

@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from scene_runs import ROOT, on_two_processes
+from scene_runs import MPIEXEC, ROOT, on_two_processes
 from scenes_in_space import CUTS, SpaceRuns
 
 # A column: the Darcy velocity is 1e-6 m/s, so that water moves with 5e-6 m/s.
@@ -254,6 +254,21 @@ class Tracer(SpaceRuns):
             text = flowing(dimension, **UNEVEN, decay="1e-4 1/s")
             one = self.run_text(text)
             self.assertLess(self.largest_difference(one, self.run_text(text, processes=2), figures(one)), 1e-9)
+
+    def test_a_doublet(self):
+        """Reference: what is injected, by hand; most of it comes out."""
+        doublet = ROOT / "configs/tutorial/tracer_doublet.yaml"
+        short = ("mesh={size: 16 m, fracture_size: 3 m, growth: 0.5}", "time={end: 6 h, step: 10 min}", "output.fields=false")
+        one = self.run_scene(doublet, *short)
+        injected = 1e-5 * 1800
+        self.assertLess(abs(one.history["tracer_injected[kg/m]"][-1] / injected - 1), 1e-12)
+        self.assertLess(np.abs(one.history["tracer_balance_error[kg/m]"]).max(), 1e-13 * injected)
+        curve = one.history["tracer_advection.outlet.concentration[kg/m^3]"]
+        self.assertTrue(0 < np.argmax(curve) < len(curve) - 1 and curve.min() >= 0)
+        self.assertLess(abs((curve * 600).sum() * 1e-5 / injected - 0.98), 0.02)
+        if MPIEXEC:
+            two = self.run_scene(doublet, *short, processes=2)
+            self.assertLess(self.largest_difference(one, two, ["tracer_advection.outlet.concentration[kg/m^3]", "tracer_stored[kg/m]"]), 1e-8)
 
     def test_a_mirrored_fracture(self):
         one, two = (self.run_text(fracture(1, mirror=mirror)).fractures() for mirror in (False, True))
