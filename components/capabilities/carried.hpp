@@ -4,6 +4,7 @@
 #include <cctype>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/assembly/linear_expression.hpp"
 #include "framework/config/range.hpp"
@@ -52,6 +53,8 @@ class MatrixCarried {
   virtual std::optional<double> side_value(int face) const = 0;
   /// The part of what each cell holds that decays in a time, 1/s; empty where nothing does.
   virtual const Vector& decay() const = 0;
+  /// Adds to what each cell conducts by itself, until the next call. In Part::evaluate_data, or between two solves.
+  virtual void add_conductivity(std::vector<Tensor> added) = 0;
 };
 
 /// Capability: accepts what is conducted through the walls of fractures, and gives the value there.
@@ -81,6 +84,8 @@ class FractureCarried {
   virtual const Vector* thickness() const { return nullptr; }
   /// As in MatrixCarried.
   virtual const Vector& decay() const = 0;
+  /// Adds to conductivity times aperture of each fracture cell, until the next call; as in MatrixCarried.
+  virtual void add_conductivity(std::vector<Tensor> added) = 0;
 };
 
 }  // namespace sprekk

@@ -1,6 +1,7 @@
 #include "components/fracture_transport/fracture_transport.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "components/capabilities/cold.hpp"
 #include "framework/assembly/balance_rows.hpp"
@@ -48,7 +49,8 @@ FractureTransport::FractureTransport(const ComponentContext& context, const Carr
   }
   capacity_of_value_ = Operator(diagonal_matrix(capacity_));
   options_.crossings.check_names(mesh_);
-  connect(conductivity.cwiseInverse(), aperture);
+  resistivity_ = conductivity.cwiseInverse();
+  connect();
 }
 
 void FractureTransport::note_input(Notes& notes) const {
@@ -77,10 +79,18 @@ double FractureTransport::half_length(int cell, int ridge) const {
 }
 
 double FractureTransport::half_conductance(int cell, int ridge) const {
-  return conductance_along_[cell] / half_length(cell, ridge);
+  if (added_.empty()) return conductance_along_[cell] / half_length(cell, ridge);
+  const Point out = (mesh_.ridges[ridge].center - mesh_.fracture_cells[cell].center).normalized();
+  return (conductance_along_[cell] + out.dot(added_[cell] * out)) / half_length(cell, ridge);
 }
 
-void FractureTransport::connect(const Vector& resistivity, const Vector& aperture) {
+void FractureTransport::add_conductivity(std::vector<Tensor> added) {
+  if (added == added_) return;
+  added_ = std::move(added);
+  connect();
+}
+
+void FractureTransport::connect() {
   const int points = static_cast<int>(mesh_.ridges.size()), cells = mesh_.fracture_cell_count();
   conductance_to_end_ = Vector::Zero(points);
   largest_conductance_ = 0;
@@ -111,8 +121,8 @@ void FractureTransport::connect(const Vector& resistivity, const Vector& apertur
     const int ridge = mesh_.junctions[k].ridges.front();
     std::vector<CrossingArm> arms;
     for (const int cell : at) {
-      arms.push_back({mesh_.fracture_cells[cell].fracture, half_length(cell, ridge), aperture[cell], resistivity[cell],
-                      0.5 * aperture[cell] * resistivity[cell]});
+      arms.push_back({mesh_.fracture_cells[cell].fracture, half_length(cell, ridge), thickness_[cell],
+                      resistivity_[cell], 0.5 * thickness_[cell] * resistivity_[cell]});
     }
     const std::vector<WayToMiddle> ways = ways_to_middle(arms, fills[k]);
     std::vector<double> halves;

@@ -57,11 +57,11 @@ class FractureTransport : public Component, public virtual FractureCarried, publ
   const Vector& wall_conductance() const override { return wall_conductance_; }
   const Vector* thickness() const override { return &thickness_; }
   const Vector& decay() const override { return decay_; }
+  void add_conductivity(std::vector<Tensor> added) override;
 
  private:
   const Data* end_condition(int point) const;  ///< nullptr where there is none
-  /// `resistivity`: of each cell along it, m K/W; `aperture`: m.
-  void connect(const Vector& resistivity, const Vector& aperture);
+  void connect();
   double half_length(int cell, int ridge) const;
   double half_conductance(int cell, int ridge) const;
   Vector leaving() const;  ///< W/m, of each cell: what is conducted out through ends on sides
@@ -74,6 +74,8 @@ class FractureTransport : public Component, public virtual FractureCarried, publ
   Field& cumulative_;               ///< (stored, outflow or decayed) of each fracture cell since the start
   Vector capacity_;                 ///< J/(m K)
   Vector conductance_along_;        ///< conductivity times aperture, W/K
+  std::vector<Tensor> added_;       ///< to it; empty where there is nothing
+  Vector resistivity_;              ///< along each cell, m K/W
   double largest_conductance_ = 0;  ///< of half a cell, W/(m K)
   Vector wall_conductance_, thickness_;
   Vector decay_;  ///< 1/s; empty where nothing decays

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "components/capabilities/cold.hpp"
 #include "components/capabilities/overshoots.hpp"
@@ -97,11 +98,22 @@ void MatrixTransport::discretize() {
     const SideCondition* side = condition(f);
     conditions_[f] = side && side->value ? FlowCondition::pressure : FlowCondition::flux;
   }
-  FluxOperators made = discretize_(mesh_, conductivity_, conditions_, nodes_to_discretize(mesh_));
+  std::vector<Tensor> conductivity = conductivity_;
+  for (std::size_t c = 0; c < added_.size(); ++c) conductivity[c] += added_[c];
+  FluxOperators made = discretize_(mesh_, conductivity, conditions_, nodes_to_discretize(mesh_));
   operators_.swap(made);
   use_operators();
   is_discretized_ = true;
   discretized_mesh_ = mesh_.version;
+}
+
+void MatrixTransport::add_conductivity(std::vector<Tensor> added) {
+  if (added == added_) return;
+  added_ = std::move(added);
+  if (!is_discretized_) return;
+  is_discretized_ = false;
+  discretize();
+  use_boundary();
 }
 
 void MatrixTransport::use_operators() {

@@ -64,6 +64,7 @@ class MatrixTransport : public Component,
   const Vector& initial_value() const override { return initial_value_; }
   std::optional<double> side_value(int face) const override;
   const Vector& decay() const override { return decay_; }
+  void add_conductivity(std::vector<Tensor> added) override;
   Field& wall_flux() override { return *wall_flux_; }
   const LinearExpression& wall_value() const override { return wall_value_; }
 
@@ -88,6 +89,7 @@ class MatrixTransport : public Component,
   Vector capacity_;  ///< J/(m K), m^2; one a cell
   Vector decay_;     ///< 1/s; empty where nothing decays
   std::vector<Tensor> conductivity_;
+  std::vector<Tensor> added_;  ///< to the conductivity; empty where there is nothing
   std::uint64_t discretized_mesh_ = 0;
   bool is_discretized_ = false;
   FluxOperators operators_;

@@ -11,6 +11,7 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_border.hpp"
 #include "components/capabilities/temperature.hpp"
+#include "couplers/advection/dispersion.hpp"
 #include "couplers/advection/fluid_contents.hpp"
 #include "couplers/advection/held_flow.hpp"
 #include "couplers/advection/options.hpp"
@@ -113,6 +114,7 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
     wells_.check(name());
     if (rock_.value) rock_.check(in_rock_->capacity(), name());
     if (fractures_.value) fractures_.check(in_fractures_->capacity(), name());
+    disperse(true, true);
   }
   void begin_step(const StepTime&) override {}
 
@@ -140,6 +142,8 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
     if (!flow_->has_flowed()) return;
     const bool is_in_rock = rock_.value && has(*rock_.value);
     const bool is_in_fractures = fractures_.value && has(*fractures_.value);
+    disperse(rock_.value && flow_in_rock_ && !is_in_rock && has(flow_in_rock_->pressure()),
+             fractures_.value && !is_in_fractures && has(fracture_->flux()));
     if (!is_in_rock && !is_in_fractures) return;
     const FlowRates rates = flow_->rates(has, step);
     const Mixtures wells = wells_.mixtures(rates.wells);
@@ -223,6 +227,15 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   }
 
  private:
+  /// Gives dispersion, where there is any, by the flow as it was last solved.
+  void disperse(bool in_rock, bool in_fractures) {
+    if (options_.dispersivity.is_zero() || !flow_->has_flowed()) return;
+    if (const Vector* fluxes = flow_->last_fluxes_in_rock(); fluxes && in_rock && rock_.value)
+      in_rock_->add_conductivity(dispersion_in_rock(mesh_, *fluxes, options_.dispersivity));
+    if (in_fractures && fractures_.value)
+      in_fractures_->add_conductivity(dispersion_in_fractures(mesh_, fracture_->flux().now(), options_.dispersivity));
+  }
+
   StreamSources sources() const {
     StreamSources sources{mesh_, fracture_};
     sources.in_rock = rock_.value ? in_rock_ : nullptr;

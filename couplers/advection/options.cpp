@@ -51,6 +51,15 @@ Spec TracerAdvectionOptions::spec() {
             "through the matrix, along fractures and through their walls, where the coupler stands between flow and "
             "tracer.");
   spec.ignore("type").ignore("between");
+  spec.quantity("longitudinal_dispersivity", dispersivity.along,
+                {.unit = "m",
+                 .range = non_negative(),
+                 .doc = "Length by which uneven flow spreads the tracer along the flow: times the Darcy velocity it is "
+                        "added to the diffusion, as the flow was last solved.",
+                 .source = "Scheidegger 1961"});
+  spec.quantity(
+      "transverse_dispersivity", dispersivity.across,
+      {.unit = "m", .range = non_negative(), .doc = "The same across the flow.", .source = "Scheidegger 1961"});
   declare_injected(spec, carried_tracer);
   return spec;
 }

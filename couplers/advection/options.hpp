@@ -5,6 +5,7 @@
 #include <string>
 
 #include "components/capabilities/carried.hpp"
+#include "couplers/advection/dispersion.hpp"
 #include "framework/config/data.hpp"
 #include "framework/config/spec.hpp"
 
@@ -18,7 +19,8 @@ struct Injected {
 
 /// The parameters of the advection of something.
 struct AdvectionOptions {
-  double per_volume = 1;                     ///< what fluid holds per volume and value; heat: J/(m^3 K)
+  double per_volume = 1;  ///< what fluid holds per volume and value; heat: J/(m^3 K)
+  Dispersivity dispersivity;
   std::map<std::string, Injected> injected;  ///< by the name of the place in the flow
   void declare_injected(Spec& spec, const Carried& carried);
 };

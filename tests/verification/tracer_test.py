@@ -104,7 +104,7 @@ FLOWING = {2: ("x: [0 m, 1 m], y: [0 m, 1.2 m]", {"one": [[0.3, 0], [0.5, 0.9]],
            3: ("x: [0 m, 1 m], y: [0 m, 1.2 m], z: [0 m, 0.9 m]", CUTS, "{size: 0.5 m, fracture_size: 0.3 m, growth: 0.5}", "mfd", "m^3/s")}
 
 
-def flowing(dimension, start="2 kg/m^3", given="2 kg/m^3", rate=1e-6, schedule=BOTH, decay="0 1/s"):
+def flowing(dimension, start="2 kg/m^3", given="2 kg/m^3", rate=1e-6, schedule=BOTH, decay="0 1/s", spread=""):
     box, cuts, mesh, flow, unit = FLOWING[dimension]
     fractures = "".join(f"    {name}: {{points: {[[f'{float(c)!r} m' for c in point] for point in points]}}}\n".replace("'", "") for name, points in cuts.items())
     return f"""
@@ -123,13 +123,34 @@ components:
   water: {{type: fracture_transport/tpfa, aperture: 0.1 mm, diffusion: 1e-9 m^2/s, decay: {decay}, initial_concentration: "{start}"}}
 couplers:
   - {{type: wall_exchange, between: [pore, conduit]}}
-  - {{type: tracer_advection, between: [pore, conduit, salt, water], injected: {{well: {{concentration: {given}}}}}}}
+  - {{type: tracer_advection, between: [pore, conduit, salt, water], injected: {{well: {{concentration: {given}}}}}{spread}}}
   - {{type: tracer_exchange, between: [salt, water]}}
 schedule: {schedule}
 time: {{end: 3 h, step: 1 h}}
 """
 
 
+def oblique(q, diffusion, spread):
+    """A uniform flow q (m/s) through a box, which carries a cloud."""
+    axes = "xyz"[:len(q)]
+    pressure = '"(' + " + ".join(f"({-float(each) * 1e9!r})*{axis}/m" for each, axis in zip(q, axes)) + ') Pa"'
+    names = ("left", "right", "bottom", "top") + (("front", "back") if len(q) == 3 else ())
+    sides = ", ".join(f"{side}: {{pressure: {pressure}}}" for side in names)
+    cloud = '"exp(-20*(' + " + ".join(f"({axis}/m - 0.5)^2" for axis in axes) + ')) kg/m^3"'
+    return f"""
+name: oblique
+geometry: {{box: {{{", ".join(f"{axis}: [0 m, 1 m]" for axis in axes)}}}}}
+mesh: {{size: {0.15 if len(q) == 2 else 0.3} m}}
+components:
+  pore: {{type: matrix_flow/mpfa, permeability: 1e-12 m^2, viscosity: 1 mPa*s, storage: 0 1/Pa, boundary: {{{sides}}}}}
+  salt: {{type: matrix_transport/mpfa, porosity: 0.2, diffusion: {diffusion}, initial_concentration: {cloud}}}
+couplers: [{{type: tracer_advection, between: [pore, salt]{spread}}}]
+schedule: [{{solve: pore}}, {{solve: salt}}]
+time: {{end: 1e5 s, step: 2e4 s}}
+"""
+
+
+SPREAD = ", longitudinal_dispersivity: 0.05 m, transverse_dispersivity: 0.01 m"
 UNEVEN = {"start": "(1 + x/m) kg/m^3", "given": "3 kg/m^3"}
 AMOUNT = {2: "kg/m", 3: "kg"}
 
@@ -213,13 +234,36 @@ class Tracer(SpaceRuns):
         for dimension in (2, 3):
             for schedule in (BOTH, "[{solve: [salt, water]}, {solve: [pore, conduit]}]"):
                 with self.subTest(schedule, dimension=dimension):
-                    results = self.run_text(flowing(dimension, **UNEVEN, schedule=schedule, decay="1e-4 1/s"))
+                    results = self.run_text(flowing(dimension, **UNEVEN, schedule=schedule, decay="1e-4 1/s", spread=SPREAD))
                     unit = AMOUNT[dimension]
                     brought = 3 * 1e-6 * 3 * 3600
                     self.assertGreater(results.history[f"tracer_injected[{unit}]"][-1], 0.5 * brought)
                     self.assertLess(np.abs(results.history[f"tracer_balance_error[{unit}]"]).max(), 1e-12 * brought)
                     for values in concentrations(results):
                         self.assertTrue(0 < values.min() and values.max() < 3 * (1 + 1e-12))
+
+    def test_dispersion(self):
+        """Reference: the same scene with that much more diffusion, phi D + alpha_T |q| I + (alpha_L - alpha_T) q q^T/|q|: in a column, in a flow that is oblique to
+        all axes, in a plane and in space, along a fracture."""
+        spread = self.run_text(column(40, 10).replace("[pore, salt]", "[pore, salt], longitudinal_dispersivity: 0.1 m")).fields()
+        diffused = self.run_text(column(40, 10).replace(f"diffusion: {DIFFUSION!r}", f"diffusion: {DIFFUSION + 0.1 * 1e-6 / POROSITY!r}")).fields()
+        self.assertLess(np.abs(spread["salt.concentration"] - diffused["salt.concentration"]).max(), 1e-10)
+        for dimension in (2, 3):
+            with self.subTest(dimension=dimension):
+                q = np.array([3e-7, -2e-7, 1e-7][:dimension])
+                size = np.linalg.norm(q)
+                tensor = 1e-8 * np.eye(dimension) + (0.01 * size * np.eye(dimension) + (0.05 - 0.01) / size * np.outer(q, q)) / 0.2
+                names = "xyz"[:dimension]
+                explicit = ", ".join(f"{names[i]}{names[j]}: {tensor[i, j]!r} m^2/s" for i in range(dimension) for j in range(i, dimension)).replace("np.float64(", "").replace(")", "")
+                spread, diffused = (self.run_text(oblique(q, diffusion, more)).fields()["salt.concentration"]
+                                    for diffusion, more in (("1e-8 m^2/s", SPREAD), (f"{{{explicit}}}", "")))
+                self.assertGreater(np.ptp(spread), 0.1)
+                self.assertLess(np.abs(spread - diffused).max(), 1e-9)
+                none = self.run_text(oblique(q, "1e-8 m^2/s", "")).fields()["salt.concentration"]
+                self.assertGreater(np.abs(spread - none).max(), 1e-2)
+        one = self.run_text(fracture(1).replace("[conduit, water]", "[conduit, water], longitudinal_dispersivity: 0.3 m")).fractures()["water.concentration"]
+        two = self.run_text(fracture(1).replace(f"diffusion: {IN_WATER!r}", f"diffusion: {IN_WATER + 0.3 * FLOW / APERTURE!r}")).fractures()["water.concentration"]
+        self.assertLess(np.abs(one - two).max(), 1e-10)
 
     def test_fluid_of_which_nothing_is_told_has_no_tracer(self):
         """Reference: a cell that pure water flushes, c = c_0/(1 + q dt/(phi R V))^n."""
@@ -244,14 +288,14 @@ class Tracer(SpaceRuns):
 
     def test_a_restart_keeps_the_bits(self):
         for dimension in (2, 3):
-            text = flowing(dimension, **UNEVEN)
+            text = flowing(dimension, **UNEVEN, spread=SPREAD)
             whole, half = self.run_text(text), self.run_text(text, "time.end=1 h")
             self.assert_same_bits(self.run_scene(self.write(text), restart=half.folder), whole)
 
     @on_two_processes
     def test_two_processes(self):
         for dimension in (2, 3):
-            text = flowing(dimension, **UNEVEN, decay="1e-4 1/s")
+            text = flowing(dimension, **UNEVEN, decay="1e-4 1/s", spread=SPREAD)
             one = self.run_text(text)
             self.assertLess(self.largest_difference(one, self.run_text(text, processes=2), figures(one)), 1e-9)
 

@@ -50,6 +50,7 @@ class PrescribedTemperature : public Component, public MatrixTemperature {
   const Vector& initial_value() const override { return initial_temperature_; }
   std::optional<double> side_value(int) const override { return std::nullopt; }
   const Vector& decay() const override { return nothing_; }
+  void add_conductivity(std::vector<Tensor>) override {}  // nothing is conducted
 
  private:
   Field& temperature_;
