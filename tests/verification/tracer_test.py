@@ -314,6 +314,16 @@ class Tracer(SpaceRuns):
             two = self.run_scene(doublet, *short, processes=2)
             self.assertLess(self.largest_difference(one, two, ["tracer_advection.outlet.concentration[kg/m^3]", "tracer_stored[kg/m]"]), 1e-8)
 
+    @on_two_processes
+    def test_by_gmres(self):
+        """Reference: the direct solver. Hardly anything is exchanged in a short step, so that no unknowns of the rock are strongly coupled."""
+        for dimension in (2, 3):
+            text = flowing(dimension, **UNEVEN, decay="1e-4 1/s")
+            one = self.run_text(text)
+            for processes in (1, 2):
+                other = self.run_text(text, "solver={type: belos, tolerance: 1e-11}", processes=processes)
+                self.assertLess(self.largest_difference(one, other, figures(one)), 1e-7)
+
     def test_a_mirrored_fracture(self):
         one, two = (self.run_text(fracture(1, mirror=mirror)).fractures() for mirror in (False, True))
         self.assertLess(np.abs(one["water.concentration"] - two["water.concentration"][::-1]).max(), 1e-12)
