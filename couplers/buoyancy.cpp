@@ -221,11 +221,11 @@ class Buoyancy : public Coupler {
     if (fractures)
       in_fractures_ = std::make_unique<DensityIn>(options_, options_.has_expansion ? &water->temperature() : nullptr,
                                                   fracture_fluid->pressure(),
-                                                  [water](int point) { return water->end_temperature(point); });
+                                                  [water](int point) { return water->end_value(point); });
     if (matrix)
-      in_rock_ = std::make_unique<DensityIn>(options_, options_.has_expansion ? &rock->temperature() : nullptr,
-                                             matrix_fluid->pressure(),
-                                             [rock](int face) { return rock->side_temperature(face); });
+      in_rock_ =
+          std::make_unique<DensityIn>(options_, options_.has_expansion ? &rock->temperature() : nullptr,
+                                      matrix_fluid->pressure(), [rock](int face) { return rock->side_value(face); });
     if (fractures) fractures->accept_density(*in_fractures_);
     if (matrix) matrix->accept_density(*in_rock_, in_fractures_.get());
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "components/capabilities/concentration.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/temperature.hpp"
@@ -76,10 +77,8 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
     if (exposed_since_ > context.start_time)
       throw InputError(origin_, "'exposed_since' is after the start of the run",
                        "walls that have fluid at the start have had it by then", "give a time up to time.start");
-    if (context.find<FractureTemperature>() || !context.left_out<FractureTemperature>().empty())
-      throw InputError(origin_, "the fluid that leaks off would leave its heat behind",
-                       "no coupler carries heat with it, and the fractures have a temperature",
-                       "take flow and heat in the rock with wall_exchange and heat_advection, or remove the heat");
+    refuse_carried<FractureTemperature>(context, carried_heat);
+    refuse_carried<FractureConcentration>(context, carried_tracer);
     begin();
   }
 
@@ -139,6 +138,15 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
   }
 
  private:
+  template <class InFractures>
+  void refuse_carried(const CouplerContext& context, const Carried& carried) const {
+    if (context.find<InFractures>() || !context.left_out<InFractures>().empty())
+      throw InputError(origin_, "the fluid that leaks off would leave its " + carried.quantity + " behind",
+                       "no coupler carries " + carried.quantity + " with it, and the fractures have a " + carried.value,
+                       "take flow and " + carried.quantity + " in the rock with wall_exchange and " + carried.quantity +
+                           "_advection, or remove the " + carried.quantity);
+  }
+
   /// All fluid of the present state has been there since then.
   void begin() {
     wet_.set_both(wet_sizes());

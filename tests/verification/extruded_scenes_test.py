@@ -19,6 +19,7 @@ SCENES = ROOT / "configs"
 # What the scenes have that has no counterpart in space.
 LEFT_OUT = {"verification/theis.yaml": "wells/limited are in a plane alone",
             "tutorial/heat_doublet.yaml": "wells/limited are in a plane alone",
+            "tutorial/tracer_doublet.yaml": "wells/limited are in a plane alone",
             "tutorial/well_limits.yaml": "wells/limited are in a plane alone"}
 # Settings of the plane and of space: coarser meshes, for seconds; and a point, which would become a line, becomes the whole fracture.
 EXTRUDED = {"verification/closed_box.yaml": ["components.conduit.injection.well.at=null", "components.conduit.injection.well.fracture=main"],

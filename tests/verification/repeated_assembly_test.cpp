@@ -121,6 +121,23 @@ std::vector<Override> with_heat(const std::string& type) {
       {"schedule", "[{solve: [pore, rock, conduit, contact, heat, water]}, {grow: tips, settle: [rock, contact]}]"}};
 }
 
+/// The scene with a tracer in rock and fractures, which decays.
+std::vector<Override> with_tracer(const std::string& type) {
+  return {
+      {"components.salt", "{type: matrix_transport/" + type +
+                              ", porosity: 0.1, diffusion: 1e-9 m^2/s, decay: 1e-6 1/s, initial_concentration: 1 "
+                              "kg/m^3, boundary: {left: {concentration: 2 kg/m^3}}}"},
+      {"components.water",
+       "{type: fracture_transport/tpfa, aperture: 0.1 mm, diffusion: 1e-9 m^2/s, decay: 1e-6 1/s, "
+       "initial_concentration: 1 kg/m^3}"},
+      {"couplers",
+       "[{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}, {type: "
+       "wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, {type: "
+       "two_level, between: [rock, conduit, tips, contact]}, {type: tracer_advection, between: [pore, conduit, salt, "
+       "water]}, {type: tracer_exchange, between: [salt, water]}]"},
+      {"schedule", "[{solve: [pore, rock, conduit, contact, salt, water]}, {grow: tips, settle: [rock, contact]}]"}};
+}
+
 /// The scene with wells in rock and in the fracture, with limits.
 std::vector<Override> with_wells() {
   return {
@@ -187,6 +204,8 @@ const std::vector<std::vector<Override>> scenes = {
     {{"materials.dilation_angle", "20 deg"}, {"components.conduit.initial_aperture", "0.5 mm"}},
     with_heat("mpfa"),
     with_heat("tpfa"),
+    with_tracer("mpfa"),
+    with_tracer("tpfa"),
     with_wells(),
     with_other_flows(),
     with_a_flow_beside(),
@@ -200,18 +219,21 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RepeatedAssembly, ::testing::ValuesIn(scenes));
 
 /// The scenes above have all that there is: a new type belongs into one of them.
 TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
-  std::set<std::string> types = {"matrix_flow/tpfa",       "poromechanics/fem",
-                                 "matrix_flow/rt0",        "matrix_flow/ntpfa",
-                                 "contact/penalty",        "contact/augmented_lagrangian",
-                                 "fine_fracture/jump_fit", "matrix_heat/mpfa",
-                                 "matrix_heat/tpfa",       "fracture_heat/tpfa",
-                                 "heat_advection",         "heat_exchange",
-                                 "thermal_stress",         "thermal_pressurization",
-                                 "thermal_viscosity",      "buoyancy",
-                                 "wells/limited",          "well_exchange",
-                                 "matrix_exchange",        "border_exchange",
-                                 "carter_leak_off",        "matrix_flow/prescribed",
-                                 "matrix_heat/prescribed", "fine_fracture/boundary_element"},
+  std::set<std::string> types = {"matrix_flow/tpfa",        "poromechanics/fem",
+                                 "matrix_flow/rt0",         "matrix_flow/ntpfa",
+                                 "contact/penalty",         "contact/augmented_lagrangian",
+                                 "fine_fracture/jump_fit",  "matrix_heat/mpfa",
+                                 "matrix_heat/tpfa",        "fracture_heat/tpfa",
+                                 "heat_advection",          "heat_exchange",
+                                 "thermal_stress",          "thermal_pressurization",
+                                 "thermal_viscosity",       "buoyancy",
+                                 "wells/limited",           "well_exchange",
+                                 "matrix_exchange",         "border_exchange",
+                                 "carter_leak_off",         "matrix_flow/prescribed",
+                                 "matrix_heat/prescribed",  "fine_fracture/boundary_element",
+                                 "matrix_transport/mpfa",   "matrix_transport/tpfa",
+                                 "fracture_transport/tpfa", "tracer_advection",
+                                 "tracer_exchange"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {

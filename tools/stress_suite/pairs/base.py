@@ -75,12 +75,12 @@ class Draft:
         if injection and not isinstance(injection["rate"], dict):
             components["conduit"]["injection"] = {"well": {**injection, "rate": f"{injection['rate'] * self.scale!r} m^2/s"}}
         couplers = [dict(options) for options in self.couplers]
-        for advection in (options for options in couplers if options["type"] == "heat_advection"):
+        for advection in (options for options in couplers if options["type"].endswith("_advection")):
             of_well = advection.pop("injected")
             injected = dict(of_well) if self.driven else {}
-            if "wells" in components:  # whose fluid carries heat, too
+            if "wells" in components:  # whose fluid carries heat or a tracer, too
                 advection["between"] = [*advection["between"], "wells"]
-                injected["feed"] = {"temperature": "320 K"}
+                injected["feed"] = {"temperature": "320 K"} if "temperature" in of_well["well"] else {"concentration": "2 kg/m^3"}
             if injected:
                 advection["injected"] = injected
         if not self.driven:

@@ -239,6 +239,20 @@ def heat(draft):
     draft.probes["T_main"] = {"of": "water.temperature", "at": f.point(5.5, 3)}
 
 
+@feature("physics", "tracer")
+def tracer(draft):
+    f = draft.frame
+    draft.groups["tracer"] = ["salt", "brine"]
+    draft.components["salt"] = {"type": "matrix_transport/mpfa", "porosity": 0.1, "diffusion": "1e-6 m^2/s", "retardation": 2, "decay": "1e-5 1/s",
+                                "initial_concentration": "1 kg/m^3", "boundary": {f.side("right"): {"concentration": "1 kg/m^3"}}}
+    draft.components["brine"] = {"type": "fracture_transport/tpfa", "aperture": {"fractures": {"main": "1 mm", "other": "0.4 mm", "default": "0.1 mm"}},
+                                 "diffusion": "1e-8 m^2/s", "initial_concentration": "1 kg/m^3"}
+    draft.couplers += [{"type": "tracer_advection", "between": ["pore", "conduit", "salt", "brine"], "injected": {"well": {"concentration": "3 kg/m^3"}}},
+                       {"type": "tracer_exchange", "between": ["salt", "brine"]}]
+    draft.probes["c_rock"] = {"of": "salt.concentration", "at": f.point(4.5, 4.5)}
+    draft.probes["c_main"] = {"of": "brine.concentration", "at": f.point(5.5, 3)}
+
+
 @feature("physics", "thermal stress")
 def thermal_stress(draft):
     heat(draft)

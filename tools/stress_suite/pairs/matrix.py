@@ -91,7 +91,7 @@ def compare(runs, features, answer):
 
 
 # Features that move something by themselves after the start.
-UNRESTED = {"wells", "window", "prescribed", "viscosity in time", "compressibility in time", "heat", "thermal stress", "thermal viscosity",
+UNRESTED = {"wells", "window", "prescribed", "viscosity in time", "compressibility in time", "heat", "tracer", "thermal stress", "thermal viscosity",
             "buoyancy", "subcycle heat held", "subcycle heat linear", "rate and state", "growth"}
 
 

@@ -1,0 +1,48 @@
+// What the fluid that has entered and left cells holds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "components/capabilities/carried.hpp"
+#include "couplers/advection/streams.hpp"
+#include "framework/assembly/part.hpp"
+#include "framework/scene/component.hpp"
+
+namespace sprekk::couplers {
+
+/// The cells of the rock, or of the fractures; empty without flow there, or where nothing is carried.
+class FluidContents {
+ public:
+  FluidContents() = default;
+  /// `where`: "rock" or "fractures", in names of fields; `per_volume`: what fluid holds per volume and value,
+  /// J/(m^3 K) or 1; `decay`: 1/s, one a cell, or empty.
+  FluidContents(const CouplerContext& context, const Carried& carried, Field& value, Location location,
+                const std::string& where, double per_volume, Vector decay);
+
+  /// Throws DataError where the fluid that has left a cell since the start could hold more than the cell could
+  /// (`capacity`, one a cell): the balance says nothing about the value there.
+  void check(const Vector& capacity, const std::string& coupler) const;
+  /// Counts what the streams have carried in the step, each with its value, when the values at the end
+  /// have been found. `capacity`: as above. `base`: what the products add up to whose sum a flux is
+  /// (MatrixFluxes::round_off_base_of_fluxes).
+  void count(const std::vector<Stream>& streams, const std::vector<double>& values, const Vector& capacity, double base,
+             double dt);
+  void add_to(Balance& balance) const;
+
+  /// What the fluid holds that had entered by the start of the step, per value.
+  Vector capacity_at_start() const { return per_volume_ * received->accepted(); }
+
+  Field* value = nullptr;
+  Field* received = nullptr;    ///< m, m^2 (in space m^3): fluid that has entered since the start
+  Field* cumulative = nullptr;  ///< (stored, injected, outflow or decayed) since the start
+  Location location = Location::cell;
+  Vector decay;  ///< 1/s, one a cell; empty where nothing decays
+
+ private:
+  const Mesh* mesh_ = nullptr;
+  const Carried* carried_ = nullptr;
+  double per_volume_ = 0;
+};
+
+}  // namespace sprekk::couplers

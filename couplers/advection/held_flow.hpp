@@ -1,0 +1,76 @@
+// The rates of fluid that carry something, also while the flow is held.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "components/capabilities/fluid_fluxes.hpp"
+#include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
+#include "components/capabilities/wells.hpp"
+#include "couplers/advection/flow_course.hpp"
+#include "couplers/advection/streams.hpp"
+#include "framework/scene/component.hpp"
+
+namespace sprekk::couplers {
+
+/// The flow whose fluid carries something. Everything may be missing.
+struct CarryingFlow {
+  const MatrixFluxes* matrix = nullptr;  ///< if something is carried in the rock
+  const Field* pressure_in_rock = nullptr;
+  MatrixWalls* walls = nullptr;
+  const FractureFluxes* fracture = nullptr;
+  const WellPressures* wells = nullptr;
+};
+
+/// Rates of a flow that is solved together with what it carries are the present ones. While the flow is held, they are
+/// those with which it was solved for the time of the step (FlowCourse), or, where it was not yet, those of its last
+/// solve. They are not found anew from the held pressures: with the data of a new step (another viscosity, another
+/// prescribed pressure) these would give fluxes that do not balance, and cells would gain or lose many times the fluid
+/// that they hold.
+class HeldFlow {
+ public:
+  HeldFlow(const CouplerContext& context, const CarryingFlow& flow);
+
+  /// The fields from which rates follow.
+  std::vector<const Field*> fields() const;
+  /// Whether the flow has been solved for at all: the fluxes of initial values are no flow.
+  bool has_flowed() const { return has_flowed_; }
+  /// Whether the flow has been solved for before the run began.
+  void begin(bool with_flow) { has_flowed_ = had_flowed_ = with_flow; }
+  /// Whether a field is solved for together with what is carried.
+  using IsSolved = std::function<bool(const Field&)>;
+  /// To be called after each solve.
+  void take(const IsSolved& is_solved, const StepTime& step);
+  /// The rates in a step.
+  FlowRates rates(const IsSolved& is_solved, const StepTime& step) const;
+  /// Through each face of the rock, out of face_cells[f][0], m^2/s (in space m^3/s). To be called after
+  /// Part::begin_step of all parts.
+  Vector fluxes_in_rock(const IsSolved& is_solved, const StepTime& step) const;
+
+  /// The same as the flow was last solved; nullptr where it was not on this mesh.
+  const Vector* last_fluxes_in_rock() const { return is_taken_ ? &flux_->now() : nullptr; }
+
+  /// On another mesh fluxes are those of the pressures that have been found there, until the flow is solved again.
+  void carry_over(const HeldFlow& before);
+  void accepted();
+  void rewound();
+  void save(std::map<std::string, Vector>& state) const;
+  void restore(const std::map<std::string, Vector>& state);
+
+ private:
+  /// nullptr where nothing passes the walls, which is known when all couplers have been built.
+  const Field* wall_flux() const;
+
+  const Mesh* mesh_;
+  std::string name_;
+  CarryingFlow flow_;
+  Field* flux_ =
+      nullptr;  ///< through each face of the rock as last solved, m^2/s (in space m^3/s); with a flow in the rock
+  FlowCourse in_rock_, through_walls_, in_fractures_, of_wells_;
+  bool is_taken_ = false, was_taken_ = false;     // whether flux_ is known, now and when the last step was accepted
+  bool has_flowed_ = false, had_flowed_ = false;  // the same
+};
+
+}  // namespace sprekk::couplers

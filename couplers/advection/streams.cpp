@@ -1,0 +1,126 @@
+#include "couplers/advection/streams.hpp"
+
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+/// A stream from outside, with the value that is known for it.
+Stream from_outside(int cell, double rate, std::optional<double> value) {
+  Stream stream{cell, rate, value ? Stream::From::given : Stream::From::own};
+  if (value) stream.value = *value;
+  stream.is_outside = true;
+  return stream;
+}
+
+Stream with_flux(Stream stream, Stream::Flux flux, int index, double by_flux) {
+  stream.flux = flux;
+  stream.flux_index = index;
+  stream.by_flux = by_flux;
+  return stream;
+}
+
+/// The streams through walls into the rock (sign 1), or into the fractures (−1).
+void append_walls(const StreamSources& sources, const Vector& rates, double sign, std::vector<Stream>& streams) {
+  if (rates.size() == 0) return;
+  const Mesh& mesh = sources.mesh;
+  const bool has_both = sources.in_rock && sources.in_fractures;
+  for (int w = 0; w < mesh.wall_count(); ++w) {
+    const int rock_cell = mesh.face_cells[mesh.wall_face(w)][0], fracture_cell = w / 2;
+    const bool into_rock = sign > 0;
+    if (into_rock && mesh.cell_rank[rock_cell] != parallel::rank()) continue;
+    const double length = sign * mesh.fracture_cells[fracture_cell].measure;
+    Stream stream = from_outside(into_rock ? rock_cell : fracture_cell, length * rates[w], sources.unknown);
+    if (has_both) {
+      stream.from = into_rock ? Stream::From::fracture_cell : Stream::From::rock_cell;
+      stream.index = into_rock ? fracture_cell : rock_cell;
+    }
+    stream.is_outside = !has_both;
+    streams.push_back(with_flux(stream, Stream::Flux::wall, w, length));
+  }
+}
+
+void append_sources(const StreamSources& sources, const std::vector<FluidSource>& given, bool only_own_cells,
+                    std::vector<Stream>& streams) {
+  for (const FluidSource& source : given)
+    for (const auto& [cell, rate] : source.rates)
+      if (!only_own_cells || sources.mesh.cell_rank[cell] == parallel::rank())
+        streams.push_back(from_outside(cell, rate, sources.injected_value(source.name)));
+}
+
+/// The streams out of wells into the cells that belong to the flow with this pressure.
+void append_wells(const StreamSources& sources, const Vector& rates, const Field* pressure, bool only_own_cells,
+                  std::vector<Stream>& streams) {
+  if (!sources.wells || !pressure) return;
+  for (int k = 0; k < static_cast<int>(sources.wells->places().size()); ++k) {
+    const AroundWell& around = sources.wells->surroundings()[k];
+    if (around.pressure != pressure) continue;
+    for (const auto& [cell, share] : around.shares) {
+      if (only_own_cells && sources.mesh.cell_rank[cell] != parallel::rank()) continue;
+      const double rate = share * rates[k];
+      Stream stream{cell, rate, Stream::From::well, sources.wells->places()[k].well};
+      stream.is_outside = true;
+      streams.push_back(with_flux(stream, Stream::Flux::well, k, share));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes) {
+  std::vector<Stream> streams;
+  if (!sources.in_rock) return streams;
+  const Mesh& mesh = sources.mesh;
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    if (mesh.cell_rank[c] != parallel::rank()) continue;
+    for (const int f : mesh.cell_faces[c]) {
+      if (mesh.face_fracture_cell[f] != none || fluxes[f] == 0) continue;
+      const double sign = mesh.face_cells[f][0] == c ? -1 : 1;
+      Stream stream{c, sign * fluxes[f], Stream::From::rock_cell};
+      if (mesh.face_cells[f][1] == none) {
+        const std::optional<double> side = sources.in_rock->side_value(f);
+        stream = from_outside(c, stream.rate, side ? side : sources.unknown);
+      } else {
+        stream.index = mesh.face_cells[f][sign < 0 ? 1 : 0];
+      }
+      streams.push_back(with_flux(stream, Stream::Flux::face, f, sign));
+    }
+  }
+  append_walls(sources, rates.walls, 1, streams);
+  append_sources(sources, rates.sources_in_rock, true, streams);
+  append_wells(sources, rates.wells, sources.rock_pressure, true, streams);
+  return streams;
+}
+
+std::vector<Stream> streams_of_fractures(const StreamSources& sources, const FlowRates& rates) {
+  std::vector<Stream> streams;
+  if (!sources.fracture || !sources.in_fractures) return streams;
+  const Mesh& mesh = sources.mesh;
+  const Vector& fluxes = rates.points;
+  for (int p = 0; p < static_cast<int>(mesh.ridges.size()); ++p) {
+    if (fluxes[p] == 0) continue;
+    const Ridge& point = mesh.ridges[p];
+    for (std::size_t k = 0; k < point.cells.size(); ++k) {
+      const double sign = k == 0 ? -1 : 1;
+      Stream stream{point.cells[k], sign * fluxes[p], Stream::From::fracture_cell};
+      if (point.cells.size() == 1) {
+        const std::optional<double> end = sources.in_fractures->end_value(p);
+        stream = from_outside(stream.cell, stream.rate, end ? end : sources.unknown);
+      } else {
+        stream.index = point.cells[1 - k];
+      }
+      streams.push_back(with_flux(stream, Stream::Flux::ridge, p, sign));
+    }
+  }
+  append_walls(sources, rates.walls, -1, streams);
+  append_sources(sources, rates.sources_in_fractures, false, streams);
+  append_wells(sources, rates.wells, sources.fracture_pressure, false, streams);
+  Vector net = Vector::Zero(mesh.fracture_cell_count());
+  for (const Stream& stream : streams) net[stream.cell] += stream.rate;
+  for (const FluidReservoir& reservoir : sources.fracture->fluid_reservoirs())
+    for (const int cell : reservoir.cells)
+      streams.push_back(from_outside(cell, -net[cell], sources.injected_value(reservoir.name)));
+  return streams;
+}
+
+}  // namespace sprekk::couplers

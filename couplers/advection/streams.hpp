@@ -1,0 +1,69 @@
+// The streams of fluid into and out of cells, each with where it comes from.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/capabilities/carried.hpp"
+#include "components/capabilities/fluid_fluxes.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
+#include "couplers/advection/well_mixture.hpp"
+
+namespace sprekk::couplers {
+
+/// Fluid that enters a cell, or with a negative rate leaves it.
+struct Stream {
+  /// own: the value (temperature, concentration) of the cell itself, where no other one is known.
+  enum class From { own, rock_cell, fracture_cell, given, well };
+  /// What the rate is a multiple of: the flux through a face, a wall, a ridge, the rate of a well at a place,
+  /// or nothing that is solved for.
+  enum class Flux { face, wall, ridge, well, none };
+  int cell;
+  double rate;  ///< m^2/s (in space m^3/s)
+  From from;
+  int index = none;         ///< of the cell or of the well that it comes from
+  double value = 0;         ///< where it is given
+  bool is_outside = false;  ///< whether it comes from or goes to outside of rock and fractures
+  Flux flux = Flux::none;
+  int flux_index = none;
+  double by_flux = 0;  ///< d rate / d flux
+};
+
+/// The rates of fluid that hold in a step, without those through faces. What is missing is empty.
+struct FlowRates {
+  Vector walls;   ///< from the fracture into the rock, m/s
+  Vector points;  ///< through each ridge, from its first to its second cell, m^2/s (in space m^3/s)
+  Vector wells;   ///< out of the well at each place, m^2/s (in space m^3/s)
+  std::vector<FluidSource> sources_in_rock = {}, sources_in_fractures = {};
+};
+
+/// What the streams are found from. Everything but the mesh may be missing.
+struct StreamSources {
+  const Mesh& mesh;
+  const FractureFluxes* fracture = nullptr;
+  const MatrixCarried* in_rock = nullptr;
+  const FractureCarried* in_fractures = nullptr;
+  const WellPressures* wells = nullptr;
+  const Field* rock_pressure = nullptr;      ///< of the flow in the matrix
+  const Field* fracture_pressure = nullptr;  ///< and in the fractures
+  /// The value of fluid of which the scene says nothing; without it, that of the cell which it enters.
+  std::optional<double> unknown = {};
+  /// The value of fluid from a named place, by name.
+  std::vector<std::pair<std::string, double>> injected = {};
+
+  std::optional<double> injected_value(const std::string& name) const {
+    for (const auto& [known, value] : injected)
+      if (known == name) return value;
+    return unknown;
+  }
+};
+
+/// The streams of cells of the rock that the process owns. `fluxes`: through each face, m^2/s (in space m^3/s), out of
+/// face_cells[f][0].
+std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes);
+/// The streams of all fracture cells. A reservoir supplies what its cells lose to others, and takes what they gain.
+std::vector<Stream> streams_of_fractures(const StreamSources& sources, const FlowRates& rates);
+
+}  // namespace sprekk::couplers

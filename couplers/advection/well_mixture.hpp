@@ -1,0 +1,54 @@
+// The fluid in wells, whose value (temperature, concentration) is that of what flows in.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/capabilities/carried.hpp"
+#include "components/capabilities/wells.hpp"
+#include "framework/assembly/notes.hpp"
+#include "framework/types.hpp"
+
+namespace sprekk::couplers {
+
+/// The cells of the rock, or of the fractures, where a value is known (pointers are empty where there is none).
+struct ValuesOfCells {
+  const Field* pressure = nullptr;  ///< of the flow there
+  const Field* value = nullptr;
+};
+
+/// The fluid in a well, which is mixed and stores nothing. It flows in at some of its places, with the values T_k
+/// of the cells there, and with a net rate Q = sum of q_k > 0 from outside with T_given:
+///   T = (sum over q_k < 0 of −q_k T_k + max(Q, 0) T_given)/(sum over q_k < 0 of −q_k + max(Q, 0)).
+/// It leaves with T, at other places and to the outside.
+struct WellMixture {
+  /// By the rate at a place, K s/m^2 (in space K s/m^3), say, or by the value of a cell.
+  struct Derivative {
+    int index;
+    double value;
+  };
+  double value = 0;  ///< the mean of the cells where nothing flows
+  std::vector<Derivative> by_rate, by_rock, by_fractures;
+};
+
+using Mixtures = std::vector<std::optional<WellMixture>>;
+
+/// Wells, and the values around them.
+struct ValuesOfWells {
+  const WellPressures* wells = nullptr;
+  ValuesOfCells rock, fractures;
+  const Carried* carried = nullptr;
+  std::vector<std::optional<double>> injected;  ///< of what comes from outside, one a well
+
+  bool is_known(const AroundWell& around) const;
+  /// One a well; empty for a well that is open to nothing whose value is known. `rates`: out of the well at each
+  /// place, m^2/s (in space m^3/s).
+  Mixtures mixtures(const Vector& rates) const;
+  /// Throws DataError where the fluid that a well brings has no value. `coupler`: its name.
+  void check(const std::string& coupler) const;
+  /// Notes wells that let fluid in without a value.
+  void note(const std::string& coupler, Notes& notes) const;
+};
+
+}  // namespace sprekk::couplers
