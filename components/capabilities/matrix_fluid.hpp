@@ -1,11 +1,21 @@
 // Capabilities of the flow in the matrix.
 #pragma once
 
+#include <optional>
+
 #include "framework/assembly/linear_expression.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/assembly/step_time.hpp"
 #include "framework/field/field.hpp"
 
 namespace sprekk {
+
+/// What is outside of a side of the rock that fluid may pass.
+struct OutsideOfRock {
+  double pressure;                                   ///< Pa
+  std::optional<double> conductance = std::nullopt;  ///< m/(Pa s) per area of the side; none: it does not resist
+  bool only_out = false;                             ///< nothing enters
+};
 
 /// Capability: determines the pressure of the matrix from a balance of fluid volume.
 class MatrixFluid {
@@ -33,9 +43,11 @@ class MatrixFluid {
   /// Whether there is a flow in a cell. Where there is none, the pressure stays the initial one, and no part may add
   /// anything to the row of the cell.
   virtual bool is_in_cell(int /*cell*/) const { return true; }
-  /// Whether fluid passes a side of the outer boundary, since its pressure is prescribed; an index into
-  /// Mesh::side_names.
+  /// Whether fluid passes a side of the outer boundary, since its pressure or what is behind it is prescribed; an index
+  /// into Mesh::side_names.
   virtual bool is_open(int /*side*/) const { return false; }
+  /// What is outside of an open side at a place in a step; nullopt for other sides.
+  virtual std::optional<OutsideOfRock> outside(int /*side*/, const Place&, const StepTime&) const { return {}; }
 };
 
 /// Capability: accepts a flux through the walls of fractures, and gives the pressure there.

@@ -1,6 +1,7 @@
 // Fluid that crosses the border of the regions of a flow.
 #include <algorithm>
 
+#include "components/matrix_flow/leaky_sides.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
@@ -55,7 +56,8 @@ void MatrixFlow::use_borders() {
     border.boundary.setFromTriplets(values.begin(), values.end());
     border.flux = operators_.flux_boundary * border.boundary;
     const auto sums = [&](const SparseMatrix& fluxes) {
-      return keep_rows(cell_sums(mesh_, fluxes, 1, parallel::rank()), inside_);
+      const SparseMatrix of_cells = cell_sums(mesh_, fluxes, 1, parallel::rank());
+      return inside_.empty() ? of_cells : keep_rows(of_cells, inside_);
     };
     std::vector<char> leaves(faces);  // these cells: across this border, or through a side near it
     for (int f = 0; f < faces; ++f) leaves[f] = border.faces[f] || mesh_.face_cells[f][1] == none;
@@ -79,8 +81,12 @@ void MatrixFlow::use_borders() {
 
 void MatrixFlow::make_border_traces() {
   const int faces = mesh_.face_count();
-  std::vector<char> owned = open_faces_;
-  for (int f = 0; f < faces; ++f) owned[f] = owned[f] && is_owned(mesh_, Location::face, f);
+  std::vector<char> owned(faces, 0), owned_of_sides(faces, 0);
+  for (int f = 0; f < faces; ++f) {
+    if (!is_owned(mesh_, Location::face, f)) continue;
+    owned_of_sides[f] = leaky_sides_ && leaky_sides_->faces()[f];
+    owned[f] = (!open_faces_.empty() && open_faces_[f]) || owned_of_sides[f];
+  }
   border_traces_ = {keep_rows(operators_.trace_cell, owned), keep_rows(operators_.trace_boundary, owned),
                     keep_rows(operators_.trace_change, owned), SparseMatrix(faces, faces)};
   if (!face_pressure_) return;
@@ -89,15 +95,19 @@ void MatrixFlow::make_border_traces() {
   Vector factors = Vector::Zero(faces);
   std::vector<Triplet> others;
   for (int f = 0; f < faces; ++f) {
-    if (!owned[f]) continue;
+    if (!owned[f] || owned_of_sides[f]) continue;
     factors[f] = -1 / equations.continuity_face.coeff(f, f);
     for (SparseMatrix::InnerIterator entry(equations.continuity_face, f); entry; ++entry)
       if (entry.col() != f) others.emplace_back(f, entry.col(), factors[f] * entry.value());
   }
-  border_traces_.cell = factors.asDiagonal() * equations.continuity_cell;
-  border_traces_.boundary = factors.asDiagonal() * equations.continuity_boundary;
-  border_traces_.change = SparseMatrix(faces, directions_of_faces * faces);
   border_traces_.face.setFromTriplets(others.begin(), others.end());
+  // On sides the discretization has traces.
+  border_traces_.cell =
+      SparseMatrix(factors.asDiagonal() * equations.continuity_cell) + keep_rows(operators_.trace_cell, owned_of_sides);
+  border_traces_.boundary = SparseMatrix(factors.asDiagonal() * equations.continuity_boundary) +
+                            keep_rows(operators_.trace_boundary, owned_of_sides);
+  border_traces_.change = keep_rows(operators_.trace_change, owned_of_sides);
+  border_traces_.face += keep_rows(equations.trace, owned_of_sides);
 }
 
 void MatrixFlow::apply_boundary_at_borders() {

@@ -3,6 +3,7 @@
 #include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/cell_sums.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -47,6 +48,11 @@ class Buoyancy::RowMaker {
       else
         add_mean(face, half, face);
     }
+  }
+  /// Adds P at leaky sides, with the density of the cell.
+  void add_sides(const std::vector<char>& leaky) {
+    for (int face = 0; face < static_cast<int>(leaky.size()); ++face)
+      if (leaky[face]) add_mean(face, gravity(face).dot(mesh_.face_center[face] - middle(face)), face);
   }
 
   Rows rows() const {
@@ -116,7 +122,8 @@ Buoyancy::Buoyancy(const Mesh& mesh, const VectorData& gravity, double constant_
       in_rock_(in_rock),
       in_fractures_(in_fractures) {}
 
-void Buoyancy::discretize(const FluxOperators& operators, const std::vector<FlowCondition>& conditions) {
+void Buoyancy::discretize(const FluxOperators& operators, const std::vector<FlowCondition>& conditions,
+                          const std::vector<char>& leaky_sides) {
   RowMaker flux(*this, conditions), trace(*this, conditions), continuity(*this, conditions);
   flux.subtract_cells(operators.flux_cell);
   flux.subtract_faces(operators.faces.flux);
@@ -126,6 +133,7 @@ void Buoyancy::discretize(const FluxOperators& operators, const std::vector<Flow
   trace.subtract_faces(operators.faces.trace);
   trace.subtract_boundary(operators.trace_boundary, operators.trace_change);
   trace.add_walls();
+  trace.add_sides(leaky_sides);
   trace_ = trace.rows();
   continuity.subtract_cells(operators.faces.continuity_cell);
   continuity.subtract_faces(operators.faces.continuity_face);
@@ -157,25 +165,34 @@ std::array<FluidDensity::Version, 2> Buoyancy::wall_versions() const {
   return {in_rock_.version(now), in_fractures_ ? in_fractures_->version(now) : FluidDensity::Version{}};
 }
 
+/// Adds matrix · density to an expression, linearized about the current state.
+void Buoyancy::add_linearized(LinearExpression& expression, const SparseMatrix& matrix,
+                              const FluidDensity& density) const {
+  expression.constant += matrix * Vector(density.values(FluidDensity::State::now).array() - constant_density_);
+  for (const FluidDensity::Derivative& by : density.derivatives()) {
+    const Operator term{SparseMatrix(matrix * by.values.asDiagonal())};
+    expression.constant -= term.entries() * by.field->now();
+    expression.terms.push_back({by.field, term});
+  }
+}
+
+void Buoyancy::add_to_sides(LinearExpression& expression, const std::vector<char>& leaky_sides) const {
+  std::vector<char> owned = leaky_sides;
+  for (int f = 0; f < mesh_.face_count(); ++f) owned[f] = owned[f] && is_owned(mesh_, Location::face, f);
+  for (int f = 0; f < mesh_.face_count(); ++f)
+    if (owned[f]) expression.constant[f] += trace_.of_boundaries[f];
+  add_linearized(expression, keep_rows(trace_.cells, owned), in_rock_);
+}
+
 void Buoyancy::add_to_walls(LinearExpression& expression) const {
-  const auto now = FluidDensity::State::now;
   std::vector<Triplet> entries;
   for (int w = 0; w < mesh_.wall_count(); ++w)
     if (is_owned(mesh_, Location::wall, w)) entries.emplace_back(w, mesh_.wall_face(w), 1.0);
   SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
   pick_walls.setFromTriplets(entries.begin(), entries.end());
-  const auto add = [&](const SparseMatrix& matrix, const FluidDensity& density) {
-    const SparseMatrix of_walls = pick_walls * matrix;
-    expression.constant += of_walls * Vector(density.values(now).array() - constant_density_);
-    for (const FluidDensity::Derivative& by : density.derivatives()) {
-      const Operator term{SparseMatrix(of_walls * by.values.asDiagonal())};
-      expression.constant -= term.entries() * by.field->now();
-      expression.terms.push_back({by.field, term});
-    }
-  };
   expression.constant += pick_walls * trace_.of_boundaries;
-  add(trace_.cells, in_rock_);
-  if (in_fractures_) add(trace_.walls, *in_fractures_);
+  add_linearized(expression, pick_walls * trace_.cells, in_rock_);
+  if (in_fractures_) add_linearized(expression, pick_walls * trace_.walls, *in_fractures_);
 }
 
 }  // namespace sprekk::matrix_flow

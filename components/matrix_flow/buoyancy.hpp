@@ -24,7 +24,9 @@ class Buoyancy {
            const FluidDensity* in_fractures);
 
   /// Makes the matrices anew, for operators that have changed.
-  void discretize(const FluxOperators& operators, const std::vector<FlowCondition>& conditions);
+  /// `leaky_sides`: one flag a face, or none.
+  void discretize(const FluxOperators& operators, const std::vector<FlowCondition>& conditions,
+                  const std::vector<char>& leaky_sides);
   /// Evaluates the density at sides whose pressures are given (one a face, Pa).
   void begin_step(const std::vector<FlowCondition>& conditions, const Vector& boundary_pressure);
 
@@ -47,9 +49,12 @@ class Buoyancy {
   /// values and derivatives are right as long as `wall_versions` stays the same.
   void add_to_walls(LinearExpression& expression) const;
   std::array<FluidDensity::Version, 2> wall_versions() const;
+  /// The same for the pressure at leaky sides, one a face of the mesh.
+  void add_to_sides(LinearExpression& expression, const std::vector<char>& leaky_sides) const;
 
  private:
   class RowMaker;
+  void add_linearized(LinearExpression& expression, const SparseMatrix& matrix, const FluidDensity& density) const;
 
   const Mesh& mesh_;
   VectorData gravity_;

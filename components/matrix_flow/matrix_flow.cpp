@@ -1,8 +1,10 @@
 #include "components/matrix_flow/matrix_flow.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "components/matrix_flow/buoyancy.hpp"
+#include "components/matrix_flow/leaky_sides.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
@@ -60,6 +62,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   for (const Data* data : properties()) properties_change_ = properties_change_ || data->depends_on_time();
   use_properties();
   check_sides();
+  open_leaky_sides(context);
 
   gravity_potential_cell_.resize(mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) gravity_potential_cell_[c] = gravity_potential(mesh_.cell_center[c]);
@@ -84,6 +87,7 @@ void MatrixFlow::begin_step(const StepTime& step) {
 
 void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   if (face_pressure_ && assembly.has_row(*face_pressure_)) assemble_face_pressure(assembly, step);
+  if (side_outflow_) leaky_sides_->assemble(assembly, *side_outflow_, side_pressure());
   if (!assembly.has_row(pressure_)) return;
   SPREKK_EXPECT(step.dt > 0, step.dt);
   SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
@@ -107,12 +111,17 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   assembly.compare_with(pressure_, step.dt * largest_before);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);
   for (const OpenBorder& border : borders_) assembly.linear(pressure_, border.of_cells, *border.outflow, step.dt);
+  if (side_outflow_) {
+    fluid.add_throughput(step.dt * leaking());
+    assemble_leak(assembly, fluid, step.dt);
+  }
   if (!source_.isZero(0)) fluid.supply(step.dt * source_);
 }
 
 void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& step) {
   if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
-  const Vector& fluxes = face_fluxes();
+  Vector fluxes = face_fluxes();
+  if (side_outflow_) correct_leak(fluxes);
   Vector sums = cumulative_.accepted();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     sums[3 * c] += storage_[c] * mesh_.cell_measure[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
@@ -121,7 +130,7 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
   for (const auto& [face, cell] : outer_faces_) sums[3 * cell + 2] += step.dt * fluxes[face];
   exchange(mesh_, Location::cell, 3, sums);
   cumulative_.set(std::move(sums));
-  solved_fluxes_ = fluxes;
+  solved_fluxes_ = std::move(fluxes);
 }
 
 void MatrixFlow::balance(std::map<std::string, Balance>& balances) const {

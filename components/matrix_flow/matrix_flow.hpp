@@ -15,6 +15,8 @@
 #include "components/matrix_flow/flux_operators.hpp"
 #include "components/matrix_flow/open_border.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
+#include "components/matrix_flow/side_condition.hpp"
+#include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_work.hpp"
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/keeps_state.hpp"
@@ -30,16 +32,7 @@
 namespace sprekk::matrix_flow {
 
 class Buoyancy;
-
-/// The condition on one side of the outer boundary; without pressure and flux, no fluid flows through the side.
-struct SideCondition {
-  Origin origin;
-  std::optional<Data> pressure;  ///< Pa
-  std::optional<Data> flux;      ///< m/s, out of the rock
-  bool depends_on_time() const {
-    return (pressure && pressure->depends_on_time()) || (flux && flux->depends_on_time());
-  }
-};
+class LeakySides;
 
 /// A point source or sink of fluid.
 struct Well {
@@ -123,6 +116,7 @@ class MatrixFlow : public Component,
   void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
   void release_coefficients(double share) override;
   bool is_nonlinear_in_pieces() const override { return is_limited_ && !is_sealed_; }
+  std::uint64_t discrete_state() const override;
   std::vector<double> switch_times() const override;
   bool stores_nothing_somewhere() const override;
   /// The rates of wells, and the outflow through each side with a condition, at the end of the step.
@@ -142,8 +136,9 @@ class MatrixFlow : public Component,
   double largest_given_pressure() const override;
   bool is_open(int side) const override {
     const auto found = options_.boundary.find(mesh_.side_names[side]);
-    return found != options_.boundary.end() && found->second.pressure.has_value();
+    return found != options_.boundary.end() && (found->second.pressure || found->second.is_leaky());
   }
+  std::optional<OutsideOfRock> outside(int side, const Place& place, const StepTime& step) const override;
   const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
   void change_viscosity(const Vector& viscosity) override;
   void accept_rock_storage(const Vector& storage) override { rock_storage_ = storage; }
@@ -155,7 +150,7 @@ class MatrixFlow : public Component,
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override;
   void open_border(const Field& outflow, double sign, const std::vector<char>& faces) override;
-  bool has_open_border() const override { return !borders_.empty(); }
+  bool has_open_border() const override { return !open_faces_.empty(); }
   const LinearExpression& border_pressure(const Field& outflow) const override;
   bool has_gravity() const override { return !options_.gravity.is_zero(); }
   double weight_between(const Point& from, const Point& to) const override {
@@ -218,6 +213,15 @@ class MatrixFlow : public Component,
   void apply_boundary_at_borders();
   void open_conditions();
   [[noreturn]] void refuse_density_at_border() const;
+  /// Makes the unknown flux through leaky sides, where there are any.
+  void open_leaky_sides(const ComponentContext& context);
+  /// The pressure at leaky sides, Pa, one a face of the mesh.
+  LinearExpression side_pressure() const;
+  /// Adds to the balances of cells what the fluxes through linear leaky sides are yet to change by. It is 0 where their
+  /// rows hold, and gives the balances the resistance of these sides, as a given pressure would.
+  void assemble_leak(Assembly& assembly, BalanceRows& fluid, double dt) const;
+  void correct_leak(Vector& fluxes) const;  ///< adds the same to fluxes, m^2/s, as it has been counted
+  Vector leaking() const;                   ///< the size of what leaks out of or into each cell, m^2/s
   void use_storage();
   /// Of the unknowns on faces: start values from the pressures of cells, the matrices, the equations.
   void start_face_pressure();
@@ -253,10 +257,12 @@ class MatrixFlow : public Component,
   Field& pressure_;
   Field* wall_flux_ = nullptr;      ///< exists with fractures only
   Field* face_pressure_ = nullptr;  ///< exists with Unknowns::on_cells_and_faces only
+  Field* side_outflow_ = nullptr;   ///< exists with leaky sides only
   Field& cumulative_;               ///< (stored, injected, outflow) of each cell since the start, m^2
   std::vector<char> inside_;       ///< one flag a cell: whether there is a flow; empty where there is a flow everywhere
   std::optional<Mesh> separated_;  ///< the mesh cut around these cells
-  std::vector<OpenBorder> borders_;
+  std::vector<OpenBorder> borders_;          ///< leaky sides count as one
+  std::unique_ptr<LeakySides> leaky_sides_;  ///< nullptr without
   BorderTraces border_traces_;
   std::vector<char> open_faces_;  ///< of all of them, one flag a face; empty for none
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;

@@ -7,6 +7,7 @@
 
 #include "components/capabilities/overshoots.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
+#include "components/matrix_flow/leaky_sides.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/start_balance.hpp"
 #include "framework/mesh/geometry.hpp"
@@ -155,6 +156,7 @@ void MatrixFlow::note_fluxes(Notes& notes, const StepTime& step) const {
 
 double MatrixFlow::largest_given_pressure() const {
   double largest = initial_pressure_.lpNorm<Eigen::Infinity>();
+  if (leaky_sides_) largest = std::max(largest, leaky_sides_->largest_pressure());
   for (int f = 0; f < mesh_.face_count(); ++f)
     if (conditions_.size() > 0 && conditions_[f] == FlowCondition::pressure)
       largest = std::max(largest, std::abs(boundary_values_[f] + gravity_potential_face_[f]));

@@ -7,15 +7,54 @@ namespace sprekk::matrix_flow {
 
 namespace {
 
+/// A leaky side has an outer pressure, and something that stands between.
+void check_leak(const SideCondition& side, const Node& node) {
+  for (const char* leaky : {"outer_pressure", "conductance"})
+    for (const char* given : {"pressure", "flux"})
+      if (node.find(leaky) && node.find(given))
+        throw InputError(node.find(leaky)->origin,
+                         "'" + std::string(leaky) + "' contradicts '" + given + "' at '" + node.path + "'",
+                         std::string(given) == "pressure"
+                             ? "the pressure of a leaky side follows from what passes it, and is not given"
+                             : "what passes a leaky side follows from its pressure, and is not given",
+                         "remove one of them");
+  if (side.only_out && !side.outer_pressure)
+    throw InputError(node.find("only_out")->origin, "'only_out' lacks the pressure above which fluid leaves",
+                     "it is the pressure outside", "add 'outer_pressure', as '0 Pa' in air");
+  if (side.conductance && !side.outer_pressure)
+    throw InputError(node.find("conductance")->origin, "'conductance' lacks the pressure outside",
+                     "fluid leaks by the difference of two pressures", "add 'outer_pressure'");
+  if (side.outer_pressure && !side.conductance && !side.only_out)
+    throw InputError(node.find("outer_pressure")->origin, "nothing stands between the rock and its 'outer_pressure'",
+                     "the side would have this pressure", "add a 'conductance', or write 'pressure' instead");
+}
+
 Spec side_spec(SideCondition& side) {
-  Spec inner("boundary condition of flow", "At most one of the two; none lets no fluid through.");
+  Spec inner("boundary condition of flow",
+             "A pressure, a flux, or an outer pressure behind what resists; none lets no fluid through.");
   inner.data("pressure", side.pressure, {.unit = "Pa", .doc = "Pressure on this side.", .in_time = true});
   inner.data("flux", side.flux,
              {.unit = "m/s", .doc = "Flux out of the rock, per area of this side.", .in_time = true});
-  inner.check([](const Node& node) {
+  inner.data("outer_pressure", side.outer_pressure,
+             {.unit = "Pa",
+              .doc = "Pressure behind a leaky side; with `conductance`, with `only_out`, or with both.",
+              .in_time = true});
+  inner.data("conductance", side.conductance,
+             {.unit = "m/(Pa*s)",
+              .range = non_negative(),
+              .doc = "Flux out of the rock, per area of this side and per difference of the pressures of rock and "
+                     "`outer_pressure`: permeability over viscosity and thickness of a layer in front of it.",
+              .source = "Darcy's law across the layer",
+              .in_time = true});
+  inner.flag("only_out", side.only_out,
+             {.doc = "Fluid leaves through this side where the pressure exceeds `outer_pressure`, and none enters: a "
+                     "seepage face.",
+              .source = "Signorini's condition; Bear (1972), sec. 7.1"});
+  inner.check([&side](const Node& node) {
     if (node.find("pressure") && node.find("flux"))
       throw InputError(node.origin, "contradictory boundary condition at '" + node.path + "'",
                        "a side has either a pressure or a flux", "remove one of them");
+    check_leak(side, node);
   });
   return inner;
 }

@@ -54,11 +54,18 @@ class Start {
       const auto found = of_.options.boundary.find(mesh.side_names[mesh.face_side[f]]);
       const SideCondition* side = found == of_.options.boundary.end() ? nullptr : &found->second;
       const Place place = place_of(f, c);
-      if (side && side->pressure) {
+      const double initial = of_.options.initial_pressure.at(place);
+      const auto differs = [&](double pressure) {
         const double reach = (mesh.face_center[f] - mesh.cell_center[c]).norm();
-        if (std::abs(side->pressure->at(place) - of_.options.initial_pressure.at(place)) >
-            small_part_of_weight * weight * reach)
-          return true;
+        return std::abs(pressure - initial) > small_part_of_weight * weight * reach;
+      };
+      if (side && side->pressure) {
+        if (differs(side->pressure->at(place))) return true;
+        continue;
+      }
+      if (side && side->is_leaky()) {
+        const double outside = side->outer_pressure->at(place);
+        if (differs(outside) && !(side->only_out && outside > initial)) return true;
         continue;
       }
       const double conducts = normal.dot(of_.mobility[c] * normal),

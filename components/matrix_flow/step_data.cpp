@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/matrix_flow/leaky_sides.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/discretization/changes_along_face.hpp"
 #include "framework/invariants.hpp"
@@ -13,8 +14,9 @@ bool MatrixFlow::depends_on_time() const {
   return properties_change_ || options_.source.depends_on_time() ||
          std::any_of(options_.wells.begin(), options_.wells.end(),
                      [](const auto& well) { return well.second.rate.depends_on_time(); }) ||
-         std::any_of(options_.boundary.begin(), options_.boundary.end(),
-                     [](const auto& side) { return side.second.depends_on_time(); });
+         std::any_of(options_.boundary.begin(), options_.boundary.end(), [](const auto& side) {
+           return std::ranges::any_of(side.second.data(), [](const Data* data) { return data->depends_on_time(); });
+         });
 }
 
 void MatrixFlow::evaluate_data(const StepTime& step) {
@@ -31,6 +33,11 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
                                "what enters a cell could not leave it",
                                "remove the coupler of its walls, or give it a permeability")
                         .what());
+  if (is_sealed_ && leaky_sides_)
+    throw DataError(InputError(origin_, "fluid is to leak through the side of rock that has no permeability",
+                               "what enters a cell could not leave it",
+                               "remove 'outer_pressure' from its sides, or give it a permeability")
+                        .what());
   if (is_sealed_ && !borders_.empty())
     throw DataError(InputError(origin_, "fluid is to cross the border of rock that has no permeability",
                                "what enters a cell could not leave it",
@@ -42,6 +49,7 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
   boundary_applied_ = false;
   forget_flow();
   evaluate_sources(step);
+  if (leaky_sides_) leaky_sides_->evaluate(step);
   boundary_values_ = Vector::Zero(mesh_.face_count());
   boundary_changes_ = Vector::Zero(directions_of_faces * mesh_.face_count());
   for (int f = 0; f < mesh_.face_count(); ++f) {
@@ -61,6 +69,17 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
     }
     if (side.flux) boundary_values_[f] = value_in_step(*side.flux, place, step) * mesh_.face_measure[f];
   }
+}
+
+std::optional<OutsideOfRock> MatrixFlow::outside(int side, const Place& place, const StepTime& step) const {
+  const auto found = options_.boundary.find(mesh_.side_names[side]);
+  if (found == options_.boundary.end()) return std::nullopt;
+  const SideCondition& given = found->second;
+  if (given.pressure) return OutsideOfRock{value_in_step(*given.pressure, place, step)};
+  if (!given.is_leaky()) return std::nullopt;
+  OutsideOfRock outside{value_in_step(*given.outer_pressure, place, step), std::nullopt, given.only_out};
+  if (given.conductance) outside.conductance = value_in_step(*given.conductance, place, step);
+  return outside;
 }
 
 void MatrixFlow::change_viscosity(const Vector& viscosity) {
@@ -125,8 +144,7 @@ std::vector<double> MatrixFlow::switch_times() const {
   append(options_.source);
   for (const auto& [name, well] : options_.wells) append(well.rate);
   for (const auto& [side, condition] : options_.boundary) {
-    if (condition.pressure) append(*condition.pressure);
-    if (condition.flux) append(*condition.flux);
+    for (const Data* data : condition.data()) append(*data);
   }
   return times;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/matrix_flow/buoyancy.hpp"
+#include "components/matrix_flow/leaky_sides.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -24,13 +25,14 @@ constexpr double hardly_moves = 0.01;
 
 void MatrixFlow::accept_density(const FluidDensity& in_rock, const FluidDensity* in_fractures) {
   SPREKK_EXPECT(has_gravity() && !buoyancy_, name());
-  if (!borders_.empty()) refuse_density_at_border();
+  if (has_open_border()) refuse_density_at_border();
   buoyancy_ = std::make_unique<Buoyancy>(mesh_, options_.gravity, options_.fluid_density, in_rock, in_fractures);
 }
 
 void MatrixFlow::use_density() {
   if (!buoyancy_) return;
-  if (operators_of_buoyancy_ != operators_made_) buoyancy_->discretize(operators_, conditions_);
+  if (operators_of_buoyancy_ != operators_made_)
+    buoyancy_->discretize(operators_, conditions_, leaky_sides_ ? leaky_sides_->faces() : std::vector<char>());
   operators_of_buoyancy_ = operators_made_;
   buoyancy_->begin_step(conditions_, boundary_values_ + gravity_potential_face_);
   versions_at_walls_ = {};

@@ -30,6 +30,24 @@ std::string direction_text(Point direction) {
   return text + ")";
 }
 
+/// Pinned points on sides that are held in the same direction.
+void check_pinned(const Options& options, const Mesh& mesh) {
+  for (const auto& [name, point] : options.pinned)
+    for (const int face : mesh.node_faces[pinned_node(point, name, mesh)]) {
+      const SideCondition* condition = condition_of(options, mesh, face);
+      if (!condition) continue;
+      const Tensor axes = axes_of(condition->axes(), mesh.face_normal[face]);
+      for (int k = 0; k < dimension; ++k)
+        for (int j = 0; j < dimension; ++j)
+          if (point.displacement_along[k] && condition->displacement_of(j) && axes(k, j) * axes(k, j) > round_off)
+            throw InputError(point.origin,
+                             "the displacement in " + std::string(axis_names[k]) + " of the pinned point '" + name +
+                                 "' is given twice",
+                             "it lies on side '" + mesh.side_names[mesh.face_side[face]] + "', which is held",
+                             "remove one of the two");
+    }
+}
+
 void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
   // How prescribed displacements resist the rigid motions: along the axes, and turning about the middle of the rock.
   Point middle = Point::Zero();
@@ -38,23 +56,37 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
   for (const Point& center : mesh.face_center) size = std::max(size, (center - middle).norm());
   constexpr int motions = dimension + rigid_rotations(dimension);
   Eigen::MatrixXd resistance = Eigen::MatrixXd::Zero(motions, motions);
+  const auto resist = [&](const Point& arm, const Point& direction) {
+    Eigen::VectorXd motion(motions);
+    motion << direction, rotated(arm).transpose() * direction;
+    resistance += motion * motion.transpose();
+  };
   for (int f = 0; f < mesh.face_count(); ++f) {
     const SideCondition* condition = condition_of(options, mesh, f);
     if (!condition) continue;
     const Point arm = (mesh.face_center[f] - middle) / size;
     const Tensor axes = axes_of(condition->axes(), mesh.face_normal[f]);
-    for (int k = 0; k < dimension; ++k) {
-      Eigen::VectorXd motion(motions);
-      motion << axes.col(k), rotated(arm).transpose() * axes.col(k);
-      if (condition->displacement_of(k)) resistance += motion * motion.transpose();
-    }
+    for (int k = 0; k < dimension; ++k)
+      if (condition->displacement_of(k)) resist(arm, axes.col(k));
+    if (!condition->has_spring()) continue;
+    const Tensor along = axes_of(ConditionAxes::of_face, mesh.face_normal[f]);
+    const Place place{mesh.face_center[f], mesh.cell_region[mesh.face_cells[f][0]], 0};
+    const Tensor spring = condition->spring_at(place, mesh.face_normal[f]);
+    for (int k = 0; k < dimension; ++k)
+      if (along.col(k).dot(spring * along.col(k)) > 0) resist(arm, along.col(k));
+  }
+  for (const auto& [name, point] : options.pinned) {
+    const Point arm = (mesh.nodes[pinned_node(point, name, mesh)] - middle) / size;
+    for (int k = 0; k < dimension; ++k)
+      if (point.displacement_along[k]) resist(arm, Point::Unit(k));
   }
   const std::string add =
       dimension == 2 ? "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to "
-                       "'boundary:', or 'displacement_normal: 0 m' to two sides that are not parallel"
+                       "'boundary:', or 'displacement_normal: 0 m' to two sides that are not parallel, or "
+                       "points to 'pinned:'"
                      : "add for example 'left: {displacement_x: 0 m}', 'front: {displacement_y: 0 m}' and 'bottom: "
                        "{displacement_z: 0 m}' to 'boundary:', or 'displacement_normal: 0 m' to three sides that are "
-                       "not parallel";
+                       "not parallel, or points to 'pinned:'";
   const PrincipalAxes shifts = principal_axes(resistance.topLeftCorner<dimension, dimension>());
   if (shifts.values[0] <= round_off * shifts.values[dimension - 1]) {
     const std::string free = direction_text(shifts.axes.col(0));
@@ -77,6 +109,7 @@ const SideCondition* condition_of(const Options& options, const Mesh& mesh, int 
 
 void check_conditions(const Options& options, const Mesh& mesh, const Origin& where) {
   check_sides(options, mesh);
+  check_pinned(options, mesh);
   check_held(options, mesh, where);
 }
 

@@ -30,6 +30,14 @@ Point SideCondition::traction_in(const StepTime& step, const Place& place, const
   return total;
 }
 
+Tensor SideCondition::spring_at(const Place& place, const Point& normal) const {
+  const Tensor along = normal * normal.transpose();
+  Tensor resists = Tensor::Zero();
+  if (spring_normal) resists += spring_normal->at(place) * along;
+  if (spring_tangential) resists += spring_tangential->at(place) * (Tensor::Identity() - along);
+  return resists;
+}
+
 bool SideCondition::depends_on_time() const {
   const std::vector<const Data*> given = data();
   return std::any_of(given.begin(), given.end(), [](const Data* one) { return one->depends_on_time(); });
@@ -59,6 +67,9 @@ std::vector<const Data*> Options::loads() const {
   data.push_back(&rock_density);
   for (const auto& [side, condition] : boundary)
     for (const Data* given : condition.data()) data.push_back(given);
+  for (const auto& [name, point] : pinned)
+    for (const std::optional<Data>& given : point.displacement_along)
+      if (given) data.push_back(&*given);
   for (const auto& [name, region] : excavation) data.push_back(&region.support);
   return data;
 }
@@ -115,6 +126,36 @@ void refuse_two_frames(const Node& node) {
                              ", or conditions in " + axes_in_words);
 }
 
+/// A displacement that is given beside a spring in its direction.
+void refuse_held_springs(const Node& node) {
+  for (const char* spring : {"spring_normal", "spring_tangential"}) {
+    std::vector<std::string> holds = vector_names("displacement");
+    holds.push_back(std::string(spring) == "spring_normal" ? "displacement_normal" : "displacement_tangential");
+    for (const std::string& held : holds)
+      if (node.find(spring) && node.find(held))
+        throw InputError(node.find(spring)->origin,
+                         "'" + std::string(spring) + "' contradicts '" + held + "' at '" + node.path + "'",
+                         "a side on springs moves as its load asks for, and is not held", "remove one of them");
+  }
+}
+
+void declare_springs(Spec& spec, SideCondition& side) {
+  constexpr const char* fixed = "a bed that changes would load the rock by what it has held so far";
+  spec.data("spring_normal", side.spring_normal,
+            {.unit = "Pa/m",
+             .range = non_negative(),
+             .doc = "Stiffness of a bed that the side rests on, per area: its traction against a displacement along "
+                    "the normal, beside other tractions.",
+             .source = "Winkler (1867)",
+             .fixed = fixed});
+  spec.data("spring_tangential", side.spring_tangential,
+            {.unit = "Pa/m",
+             .range = non_negative(),
+             .doc = "The same against a displacement along the side.",
+             .source = "Winkler (1867)",
+             .fixed = fixed});
+}
+
 Spec side_spec(SideCondition& side) {
   write_instead(
       "boundary condition of mechanics", "pressure",
@@ -128,7 +169,8 @@ Spec side_spec(SideCondition& side) {
                   "a side in space has two tangents: write 'traction: [x, y, z]'");
   }
   Spec spec("boundary condition of mechanics",
-            "Per direction a displacement or a total traction; a direction without either is free of traction.");
+            "Per direction a displacement or a total traction; a direction without either is free of traction. Springs "
+            "add to tractions.");
   spec.vector("displacement", side.displacement,
               {.unit = "m",
                .doc = in_plane ? "Displacement in both directions." : "Displacement in all directions.",
@@ -158,7 +200,9 @@ Spec side_spec(SideCondition& side) {
     spec.data(
         "shear_stress", side.shear_stress,
         {.unit = "Pa", .doc = "Total traction along the side, positive with the rock on the left.", .in_time = true});
+  declare_springs(spec, side);
   spec.check([](const Node& node) {
+    refuse_held_springs(node);
     const std::vector<std::string> displacements = vector_names("displacement"), tractions = vector_names("traction");
     for (int k = 1; k <= dimension; ++k) refuse_both(node, displacements[0], displacements[k]);
     for (const std::string& traction : tractions) refuse_both(node, displacements[0], traction);
@@ -256,6 +300,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                       },
                       {.doc = std::string("Conditions by the name of the side (left, right, ") +
                               (in_plane ? "" : "front, back, ") + "bottom, top, or of the imported mesh)."});
+  add_pinned_points(spec, pinned);
   add_excavation(spec, excavation);
   spec.check([this](const Node& node) {
     if (!is_anisotropic && (!young_modulus || !poisson_ratio))

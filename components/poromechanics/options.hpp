@@ -9,6 +9,7 @@
 
 #include "components/poromechanics/excavation.hpp"
 #include "components/poromechanics/face_conditions.hpp"
+#include "components/poromechanics/pinned_points.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/config/spec.hpp"
 
@@ -26,6 +27,7 @@ struct SideCondition {
   std::array<std::optional<Data>, dimension> traction_along;        ///< Pa
   std::optional<Data> normal_stress;                                ///< Pa, tension positive
   std::optional<Data> shear_stress;                                 ///< Pa, along the tangent of a plane
+  std::optional<Data> spring_normal, spring_tangential;             ///< Pa/m, see Springs
 
   ConditionAxes axes() const;
   /// The displacement of a direction of axes(), if it is prescribed.
@@ -33,7 +35,10 @@ struct SideCondition {
   /// The total traction during a step on a face with this outward unit normal (Pa).
   Point traction_in(const StepTime& step, const Place& place, const Point& normal) const;
   bool depends_on_time() const;
-  /// All that is given.
+  bool has_spring() const { return spring_normal || spring_tangential; }
+  /// The resistance against displacements on a face with this outward unit normal, Pa/m.
+  Tensor spring_at(const Place& place, const Point& normal) const;
+  /// All that is given, but for springs.
   std::vector<const Data*> data() const;
 };
 
@@ -62,6 +67,7 @@ struct Options {
   VectorData body_force;             ///< N/m^3
   TensorData initial_stress;         ///< Pa
   std::map<std::string, SideCondition> boundary;
+  PinnedPoints pinned;
   ExcavatedRegions excavation;
   double large_strain = 0.01;  ///< from where on a note says that the theory of small strains ends
   /// The data of all loads but the initial stress: those of the boundary, body force, density and gravity.

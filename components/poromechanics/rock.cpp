@@ -9,6 +9,15 @@ namespace sprekk::poromechanics {
 
 Rock::Rock(const ComponentContext& context, const Options& options, const StressDiscretization& discretization)
     : LoadedRock(context, options, Location::cell), stress_discretization_(discretization) {
+  for (const auto& [side, condition] : options.boundary)
+    if (condition.has_spring())
+      throw InputError(condition.origin, "side '" + side + "' of '" + name() + "' cannot rest on springs",
+                       "its displacement is no unknown: this component has those of cells",
+                       "take poromechanics/fem, or hold the side");
+  for (const auto& [point, given] : options.pinned)
+    throw InputError(given.origin, "the point '" + point + "' of '" + name() + "' cannot be pinned",
+                     "this component has displacements of cells, and none of points",
+                     "take poromechanics/fem, or hold sides");
   add_wall_traction(context.fields);
   if (!wall_traction_) return;
   wall_remainder_ = &context.fields.add(

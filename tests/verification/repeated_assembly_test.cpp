@@ -181,6 +181,18 @@ std::vector<Override> with_a_flow_beside() {
           {"schedule", "[{solve: [pore, beside, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"}};
 }
 
+/// The scene with sides and ends of fractures that leak, or let out only, in rock on springs.
+std::vector<Override> with_leaky_sides() {
+  return {
+      {"components.pore.boundary",
+       "{left: {outer_pressure: 1 MPa, conductance: 1e-15 m/(Pa*s)}, top: {outer_pressure: 1 MPa, only_out: true}}"},
+      {"components.conduit.boundary", "{left: {as_rock: true}}"},
+      {"components.rock.type", "poromechanics/fem"},
+      {"components.rock.order", "second"},
+      {"components.rock.boundary.left.displacement_x", ""},
+      {"components.rock.boundary.left.spring_normal", "40 GPa/m"}};
+}
+
 /// The scene without flow in the rock, into which the fracture leaks by Carter's law.
 std::vector<Override> with_leak_off() {
   return {{"components.pore", ""},
@@ -209,6 +221,7 @@ const std::vector<std::vector<Override>> scenes = {
     with_wells(),
     with_other_flows(),
     with_a_flow_beside(),
+    with_leaky_sides(),
     with_leak_off(),
     {{"components.tips.sectors", ""},
      {"components.tips.mesh_ratio", ""},

@@ -85,6 +85,10 @@ std::uint64_t FractureFlow::discrete_state() const {
   std::uint64_t hash = 0;
   if (empty_)
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i) hash = hash * 1000003 + is_partly_empty(i);
+  const bool is_weighed = std::ranges::any_of(links_, &Link::only_out);
+  if (is_weighed && density_) find_excess();
+  for (const Link& link : links_)
+    if (link.only_out) hash = hash * 1000003 + (is_shut(link) ? 2 : 1);
   return hash;
 }
 

@@ -18,17 +18,30 @@ double FractureFlow::half_length(int cell, int ridge) const {
 
 Conductance FractureFlow::conductance(const Link& link) const {
   const double half = half_length(link.first, link.ridge);
-  if (link.second == none) {
-    const Transmissivity first = transmissivity(link.first, link.ridge);
-    Conductance open{first.value / half, {{link.first, first.by_aperture / half}}};
-    append_by_state(open.by_aperture, link.first, 1 / half, first.by_state);
-    return open;
-  }
+  if (link.second == none) return conductance_at_end(link);
   if (!options_.is_constant()) return conductance_by_opening(link);
   const double other_half = half_length(link.second, link.ridge);
   const Transmissivity first = transmissivity(link.first, link.ridge), second = transmissivity(link.second, link.ridge);
   if (first.value == 0 || second.value == 0) return {0, {}};
   return {1 / (half / first.value + other_half / second.value), {}};
+}
+
+/// Of the half cell, and of what resists at its end: a layer as wide as the fracture is open.
+Conductance FractureFlow::conductance_at_end(const Link& link) const {
+  const double half = half_length(link.first, link.ridge);
+  const Transmissivity first = transmissivity(link.first, link.ridge);
+  Conductance open{first.value / half, {{link.first, first.by_aperture / half}}};
+  append_by_state(open.by_aperture, link.first, 1 / half, first.by_state);
+  if (!link.end_conductance) return open;
+  const double width = mesh_.ridges[link.ridge].measure, aperture = aperture_.now()[link.first];
+  const bool is_floored = aperture < options_.aperture_floor;
+  const double per_aperture = *link.end_conductance * width;
+  const double end = per_aperture * (is_floored ? options_.aperture_floor : aperture);
+  const double of_end = end > 0 ? end / (open.value + end) : 0, of_open = 1 - of_end;
+  for (auto& [cell, by] : open.by_aperture) by *= of_end * of_end;
+  if (!is_floored) open.by_aperture.emplace_back(link.first, of_open * of_open * per_aperture);
+  open.value *= of_end;
+  return open;
 }
 
 std::array<FractureFlow::HydraulicHalf, 2> FractureFlow::halves_by_opening(const Link& link) const {
@@ -169,6 +182,10 @@ double FractureFlow::pressure_drop(const Link& link) const {
   return pressure_.now()[link.first] - second - link.gravity - varying_weight(link);
 }
 
+bool FractureFlow::is_shut(const Link& link) const {
+  return link.only_out && pressure_drop(link) - further_drop(link).value < 0;
+}
+
 FractureFlow::FurtherDrop FractureFlow::further_drop(const Link& link) const {
   FurtherDrop drop;
   for (const int i : {0, 1}) {
@@ -267,17 +284,20 @@ double FractureFlow::scale_of_row(const Link& link, double conductance, double d
 void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& rows) const {
   const double scale = scale_of_row(link, c.value, rows.dt);
   const FurtherDrop further = further_drop(link);
-  const double dp = pressure_drop(link) - further.value, q = flux_.now()[link.ridge];
+  // At an end that lets out only, Q is C times the positive part of the drop.
+  const double passes = is_shut(link) ? 0 : 1;
+  const double dp = passes * (pressure_drop(link) - further.value), q = flux_.now()[link.ridge];
   rows.of_flux[link.ridge] = scale;
   rows.drop[link.ridge] = -scale * c.value * dp;
   rows.largest_pressure = std::max(rows.largest_pressure, scale * c.value * std::abs(pressure_.now()[link.first]));
-  rows.by_pressure.emplace_back(link.ridge, link.first, -scale * c.value);
+  rows.by_pressure.emplace_back(link.ridge, link.first, -passes * scale * c.value);
   if (link.second != none) rows.by_pressure.emplace_back(link.ridge, link.second, scale * c.value);
-  for (const auto& [ridge, by] : further.by_flux) rows.by_flux.emplace_back(link.ridge, ridge, scale * c.value * by);
+  for (const auto& [ridge, by] : further.by_flux)
+    rows.by_flux.emplace_back(link.ridge, ridge, passes * scale * c.value * by);
   for (const auto& [cell, by] : further.by_aperture)
-    rows.by_aperture.emplace_back(link.ridge, cell, scale * c.value * by);
+    rows.by_aperture.emplace_back(link.ridge, cell, passes * scale * c.value * by);
   for (const auto& [cell, weight] : link.by_density)
-    rows.by_density.emplace_back(link.ridge, cell, scale * c.value * weight);
+    rows.by_density.emplace_back(link.ridge, cell, passes * scale * c.value * weight);
   // The derivative of scale (q − C dp) by an aperture, where d scale / da = −scale^2 dC/da.
   for (const auto& [cell, by] : c.by_aperture)
     rows.by_aperture.emplace_back(link.ridge, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));

@@ -132,6 +132,18 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
   aperture_.set_both(std::move(aperture));
 }
 
+std::optional<OutsideOfRock> FractureFlow::outside_of_end(const Ridge& end, const Place& place,
+                                                          const StepTime& step) const {
+  const std::string& side = mesh_.side_names[end.side];
+  if (!options_.is_open(side)) return std::nullopt;
+  const EndCondition& given = options_.ends.at(side);
+  if (given.is_as_rock) return rock_fluid_ ? rock_fluid_->outside(end.side, place, step) : std::nullopt;
+  if (given.pressure) return OutsideOfRock{value_in_step(*given.pressure, place, step)};
+  OutsideOfRock outside{value_in_step(*given.outer_pressure, place, step), std::nullopt, given.only_out};
+  if (given.conductance) outside.conductance = value_in_step(*given.conductance, place, step);
+  return outside;
+}
+
 void FractureFlow::make_links(const StepTime& step) {
   links_.clear();
   std::vector<std::pair<int, int>> place_of(mesh_.ridges.size(), {none, none});
@@ -147,11 +159,13 @@ void FractureFlow::make_links(const StepTime& step) {
       other = mesh_.fracture_cells[link.second].center;
     } else {
       if (point.kind != Ridge::Kind::on_boundary) continue;
-      const auto found = options_.boundary.find(mesh_.side_names[point.side]);
-      if (found == options_.boundary.end()) continue;
       Place place = fracture_cell_place(mesh_, link.first);
       place.x = point.center;
-      link.boundary_pressure = value_in_step(found->second, place, step);
+      const std::optional<OutsideOfRock> outside = outside_of_end(point, place, step);
+      if (!outside) continue;
+      link.boundary_pressure = outside->pressure;
+      link.end_conductance = outside->conductance;
+      link.only_out = outside->only_out;
       check_bound(link.boundary_pressure, options_.boundary_origins.at(mesh_.side_names[point.side]), "the pressure");
     }
     if (!is_in_fracture_cell(link.first) || (link.second != none && !is_in_fracture_cell(link.second))) continue;
@@ -331,7 +345,8 @@ std::vector<double> FractureFlow::switch_times() const {
   };
   for (const auto& [name, injection] : options_.injections) append(injection.rate);
   for (const auto& [name, given] : options_.prescribed) append(given.pressure);
-  for (const auto& [side, pressure] : options_.boundary) append(pressure);
+  for (const auto& [side, end] : options_.ends)
+    for (const Data* data : end.data()) append(*data);
   return times;
 }
 

@@ -11,6 +11,7 @@
 #include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
 #include "components/fracture_flow/laws/formula_law.hpp"
 #include "components/fracture_flow/tpfa/junction_fluxes.hpp"
 #include "components/fracture_flow/tpfa/mean_along.hpp"
@@ -165,8 +166,10 @@ class FractureFlow : public Component,
     int first, second;             ///< cells; second is none at an open end with a prescribed pressure
     int junction;                  ///< index into Mesh::junctions where fractures meet, else none
     int place;                     ///< among the ridges of the junction
-    double boundary_pressure = 0;  ///< Pa, of an open end
-    double gravity = 0;            ///< rho g·(x_first − x_second), Pa
+    double boundary_pressure = 0;  ///< Pa, of an open end, or behind what resists there
+    std::optional<double> end_conductance = std::nullopt;  ///< m/(Pa s), per area of an end; none: it does not resist
+    bool only_out = false;                                 ///< at an end: nothing enters
+    double gravity = 0;                                    ///< rho g·(x_first − x_second), Pa
     /// What the excess of the density over the constant one adds to the difference of pressures: a factor for each cell
     /// (m^2/s^2), and a pressure (Pa) at an end.
     std::vector<std::pair<int, double>> by_density = {};
@@ -175,7 +178,10 @@ class FractureFlow : public Component,
   void count_let_in(const Assembly& assembly) const;
   /// The rates at named places, and the outflow at sides with a pressure, at the end of the step.
   void report_rates(std::vector<Quantity>& quantities) const;
+  /// What is outside of a fracture's end; nullopt where it is closed.
+  std::optional<OutsideOfRock> outside_of_end(const Ridge& end, const Place& place, const StepTime& step) const;
   Conductance conductance(const Link& link) const;
+  Conductance conductance_at_end(const Link& link) const;
   /// The conductance by the cubic law, from the apertures of the half cells.
   Conductance conductance_by_opening(const Link& link) const;
   /// The hydraulic aperture of a half cell, with the derivatives of its aperture by those of both cells at a point.
@@ -203,6 +209,7 @@ class FractureFlow : public Component,
   /// K (m^3) of the half of a cell at a point where the transmissivity is given.
   double given_transmissivity(int cell, int point) const;
   double pressure_drop(const Link& link) const;
+  bool is_shut(const Link& link) const;  ///< an end that lets out only, where fluid would enter
   /// What other fluxes than the one through the link add to its pressure drop, with derivatives by fluxes and
   /// apertures.
   struct FurtherDrop {

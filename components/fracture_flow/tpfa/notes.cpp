@@ -71,6 +71,12 @@ void FractureFlow::note_input(Notes& notes) const {
           fmt::format("{}: the rate of '{}' depends on the size of cells (they have its pressure, which at a point "
                       "of a surface has no bound) give the 'radius' of its bore hole",
                       given.where.origin.text(), key));
+  for (const auto& [side, end] : options_.ends)
+    if (end.is_as_rock && !rock_fluid_)
+      note("boundary." + side + ".as_rock", options_.boundary_origins.at(side),
+           "'as_rock' of '" + name() + "' on side '" + side +
+               "' has no effect (no wall_exchange joins it to a flow in the rock, and its ends are closed) give it a "
+               "pressure, or add the coupler");
   note_ends_on_two_sides(notes);
   note_ends(notes);
   options_.crossings.note_input(mesh_, name(), notes);
@@ -160,7 +166,7 @@ void FractureFlow::note_ends_on_two_sides(Notes& notes) const {
     if (end.kind != Ridge::Kind::on_boundary || options_.ends.count(mesh_.side_names[end.side]) > 0) continue;
     for (const int other : sides_at(mesh_, end)) {
       const std::string &side = mesh_.side_names[end.side], &said = mesh_.side_names[other];
-      if (options_.boundary.count(said) == 0) continue;
+      if (!options_.is_open(said)) continue;
       notes.add(name() + ".boundary." + said + " beside " + side,
                 fmt::format("{}: the fracture '{}' ends at {} where the sides '{}' and '{}' meet, and belongs to '{}': "
                             "the pressure at '{}' has no effect there, and nothing flows out (what holds at '{}' is "
@@ -187,7 +193,8 @@ void FractureFlow::note_ends(Notes& notes) const {
     notes.add(
         name() + ".boundary." + side + " unsaid",
         fmt::format("{}: nothing flows out of the fracture '{}' at the side '{}', where the rock is open (what holds "
-                    "at its end is not said) give '{}' under 'boundary' a pressure for '{}', or 'closed: true'",
+                    "at its end is not said) give '{}' under 'boundary' a pressure for '{}', 'as_rock: true', or "
+                    "'closed: true'",
                     origin_.text(), mesh_.fractures[mesh_.fracture_cells[cell].fracture].name, side, name(), side));
   }
 }

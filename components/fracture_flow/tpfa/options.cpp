@@ -59,14 +59,47 @@ bool conducts_as_given(const Node& map) {
 }
 
 Spec side_spec(EndCondition& end) {
-  Spec spec("boundary condition of flow in fractures", "For fractures that end on this side: one of the two.");
+  Spec spec("boundary condition of flow in fractures",
+            "For fractures that end on this side: one of pressure, outer_pressure, as_rock and closed.");
   spec.data("pressure", end.pressure,
             {.unit = "Pa", .doc = "Pressure where fractures meet this side.", .in_time = true});
+  spec.data(
+      "outer_pressure", end.outer_pressure,
+      {.unit = "Pa",
+       .doc = "Pressure behind an end that resists or lets out only; with `conductance`, with `only_out`, or with "
+              "both.",
+       .in_time = true});
+  spec.data("conductance", end.conductance,
+            {.unit = "m/(Pa*s)",
+             .range = non_negative(),
+             .doc = "Flux out of fractures, per area of their end (aperture times width) and per difference of the "
+                    "pressures there and outside.",
+             .source = "Darcy's law across a layer",
+             .in_time = true});
+  spec.flag("only_out", end.only_out,
+            {.doc = "Fluid leaves where the pressure exceeds `outer_pressure`, and none enters."});
+  spec.flag("as_rock", end.is_as_rock,
+            {.doc = "What holds for the flow in the rock on this side holds at the end of fractures: its pressure, or "
+                    "its outer pressure, conductance and only_out. Where the rock has neither, the end is closed."});
   spec.flag("closed", end.is_closed, {.doc = "Nothing flows out of fractures here, also where the rock is open."});
   spec.check([&end](const Node& node) {
-    if (end.pressure.has_value() == end.is_closed)
-      throw InputError(node.origin, "'" + node.path + "' does not say whether fractures are open there",
-                       "it is one of 'pressure' and 'closed: true'", "give one of them");
+    const int said = end.pressure.has_value() + end.outer_pressure.has_value() + end.is_as_rock + end.is_closed;
+    if (said != 1)
+      throw InputError(node.origin,
+                       said == 0 ? "'" + node.path + "' does not say whether fractures are open there"
+                                 : "'" + node.path + "' contradicts itself",
+                       "it is one of 'pressure', 'outer_pressure', 'as_rock: true' and 'closed: true'",
+                       "give one of them");
+    const bool resists = end.conductance || end.only_out;
+    if (resists && !end.outer_pressure)
+      throw InputError(node.find(end.conductance ? "conductance" : "only_out")->origin,
+                       "'" + node.path + "' lacks the pressure outside",
+                       "fluid leaks by the difference of two pressures", "add 'outer_pressure'");
+    if (end.outer_pressure && !resists)
+      throw InputError(node.find("outer_pressure")->origin,
+                       "nothing stands between fractures and their 'outer_pressure'",
+                       "their ends would have this pressure",
+                       "add a 'conductance' or 'only_out: true', or write 'pressure' instead");
   });
   return spec;
 }
@@ -178,8 +211,6 @@ void Options::read_transmissivity(const Node& node) {
 
 void Options::check(const Node& node) {
   read_transmissivity(node);
-  for (const auto& [side, end] : ends)
-    if (end.pressure) boundary.insert_or_assign(side, *end.pressure);
   if (const Origin* through = crossings.find_through(); through && !is_constant() && !has_given_walls())
     throw InputError(*through, "nothing fills the crossing in which a fracture is to go through",
                      "the transmissivity follows from the aperture, so that all fractures are open",

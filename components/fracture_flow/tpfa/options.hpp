@@ -33,10 +33,21 @@ struct PrescribedPressure {
   Data pressure;  ///< Pa
 };
 
-/// What holds where fractures end on a side: a pressure, or nothing flows out there.
+/// What holds where fractures end on a side, one of: a pressure, an outer pressure behind what resists, what holds for
+/// the rock, or nothing flows out there.
 struct EndCondition {
-  std::optional<Data> pressure;  ///< Pa
+  std::optional<Data> pressure;        ///< Pa
+  std::optional<Data> outer_pressure;  ///< Pa
+  std::optional<Data> conductance;     ///< m/(Pa s), per area of the end
+  bool only_out = false;
+  bool is_as_rock = false;
   bool is_closed = false;
+  std::vector<const Data*> data() const {
+    std::vector<const Data*> given;
+    for (const std::optional<Data>* one : {&pressure, &outer_pressure, &conductance})
+      if (*one) given.push_back(&**one);
+    return given;
+  }
 };
 
 /// Parameters of the flow in fractures.
@@ -64,8 +75,7 @@ struct Options {
   Origin fractures_origin;
   std::map<std::string, Injection> injections;
   std::map<std::string, PrescribedPressure> prescribed;
-  std::map<std::string, EndCondition> ends;  ///< by side, as the scene says it
-  std::map<std::string, Data> boundary;      ///< pressure by side, Pa
+  std::map<std::string, EndCondition> ends;  ///< by side
   std::map<std::string, Origin> boundary_origins;
   Crossings crossings;
   Spec spec();
@@ -73,6 +83,11 @@ struct Options {
 
   /// Whether the transmissivity is given; otherwise it follows from the aperture.
   bool is_constant() const { return has_law ? law.type == "constant" : transmissivity == "constant"; }
+  /// Whether fluid may pass ends of fractures on a side.
+  bool is_open(const std::string& side) const {
+    const auto found = ends.find(side);
+    return found != ends.end() && !found->second.is_closed;
+  }
   /// Whether walls conduct as a given permeability says; otherwise it follows from the aperture.
   bool has_given_walls() const {
     return normal_permeability == "constant" || (wall_permeability[0] && wall_permeability[1]);

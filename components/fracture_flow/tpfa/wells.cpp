@@ -252,7 +252,7 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
     if (point != injected_points_.end())
       quantities.push_back({name() + "." + source.name + ".pressure", "Pa", pressure_at(*point, rate)});
   }
-  if (options_.prescribed.empty() && options_.boundary.empty()) return;
+  if (options_.prescribed.empty() && options_.ends.empty()) return;
   Vector rates = Vector::Zero(static_cast<Eigen::Index>(options_.prescribed.size()));
   std::size_t k = 0;
   Eigen::Index place = 0;
@@ -270,7 +270,8 @@ void FractureFlow::report_rates(std::vector<Quantity>& quantities) const {
     quantities.push_back({name() + "." + place_name + ".rate", volume_rate_unit, rate});
     ++place;
   }
-  for (const auto& [side, pressure] : options_.boundary) {
+  for (const auto& [side, end] : options_.ends) {
+    if (end.is_closed) continue;
     double outflow = 0;  // fluxes are whole on every process
     for (const Link& link : links_) {
       const int of_link = mesh_.ridges[link.ridge].side;

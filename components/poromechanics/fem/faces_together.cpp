@@ -96,6 +96,18 @@ void FacesTogether::add(int cell, const Eigen::MatrixXd& of_unknowns) {
   }
 }
 
+void FacesTogether::add_springs(int cell, const Eigen::MatrixXd& of_unknowns) {
+  const CellFaces& faces = raw_.mesh.cell_faces[cell];
+  const int count = faces.size(), size = dimension * count;
+  const Eigen::MatrixXd of_faces = of_unknowns.bottomRightCorner(size, size);
+  for (int i = 0; i < count; ++i) {
+    if (groups_[faces[i]] == none)
+      alone_[faces[i]] += block(of_faces, i, i);
+    else
+      put(of_groups_, raw_.of_face(faces[i]), raw_.of_face(faces[i]), block(of_faces, i, i));
+  }
+}
+
 std::vector<std::vector<int>> FacesTogether::of_each_group() const {
   std::map<int, std::vector<int>> grouped;
   for (int f = 0; f < raw_.mesh.face_count(); ++f)

@@ -19,6 +19,8 @@ class FacesTogether {
 
   /// Adds the stiffness of a cell (CellStiffness::of_unknowns).
   void add(int cell, const Eigen::MatrixXd& of_unknowns);
+  /// Adds the stiffness of springs on outer faces of a cell, as it is: it couples no two faces.
+  void add_springs(int cell, const Eigen::MatrixXd& of_unknowns);
 
   /// All coefficients (RawDisplacement), of which those of nodes are 0, as functions of
   struct Displaced {

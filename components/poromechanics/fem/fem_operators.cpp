@@ -23,7 +23,7 @@ struct RawStiffness {
 };
 
 RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& tips,
-                           const std::vector<Stiffness>& stiffness, ElementOrder order) {
+                           const std::vector<Stiffness>& stiffness, ElementOrder order, const Springs& springs) {
   const Mesh& mesh = raw.mesh;
   RawStiffness result{.matrix = {},
                       .of_face = std::vector<Tensor>(mesh.face_count(), Tensor::Zero()),
@@ -45,6 +45,12 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
       result.of_face[mesh.cell_faces[c][k]] += of_cell.of_unknowns.block<dimension, dimension>(at, at);
     }
     if (order == ElementOrder::first) result.together.add(c, of_cell.of_unknowns);
+    if (const auto spring = springs.find(c); spring != springs.end()) {
+      for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j)
+          put(entries, first[i], first[j], spring->second.block<dimension, dimension>(dimension * i, dimension * j));
+      if (order == ElementOrder::first) result.together.add_springs(c, spring->second);
+    }
     result.of_interior.push_back(std::move(of_cell.of_interior));
   }
   result.matrix = made(raw.size(), raw.size(), entries);
@@ -216,7 +222,7 @@ void add_volumetric_stress(const Mesh& mesh, const Vector& taken, FemOperators& 
 }  // namespace
 
 FemOperators fem_operators(const RawDisplacement& raw, const std::vector<Stiffness>& stiffness, const Held& held,
-                           ElementOrder order, bool has_volumetric_stress) {
+                           ElementOrder order, bool has_volumetric_stress, const Springs& springs) {
   const Mesh& mesh = raw.mesh;
   SPREKK_EXPECT(static_cast<int>(stiffness.size()) == mesh.cell_count(), stiffness.size(), mesh.cell_count());
   SPREKK_EXPECT(order == ElementOrder::first || !has_volumetric_stress);
@@ -224,7 +230,7 @@ FemOperators fem_operators(const RawDisplacement& raw, const std::vector<Stiffne
   FemOperators result;
   result.tips = tips_of_faces(mesh);
   const SparseMatrix linear = linear_functions(raw, result.tips, order);
-  RawStiffness forces = raw_stiffness(raw, result.tips, split.kept, order);
+  RawStiffness forces = raw_stiffness(raw, result.tips, split.kept, order, springs);
   result.volume = volume_of(raw, result.tips);
   result.jump = jump_of(raw, result.tips);
   result.wall_compliance = compliance_of_walls(raw, result.tips, forces.of_face);

@@ -6,6 +6,7 @@
 #include "components/poromechanics/fem/cell_stiffness.hpp"
 #include "components/poromechanics/fem/held_directions.hpp"
 #include "components/poromechanics/fem/raw_displacement.hpp"
+#include "components/poromechanics/fem/springs.hpp"
 #include "components/poromechanics/fem/tips_of_faces.hpp"
 #include "components/poromechanics/stiffness.hpp"
 
@@ -52,7 +53,9 @@ struct FemOperators {
 ///
 /// `has_volumetric_stress`, at first order: the stress with which nearly incompressible cells resist a change of volume
 /// (see VolumetricSplit) is an unknown of its own, which acts as s does.
+///
+/// `springs`: on sides; they count as a part of the stiffness of their cells.
 FemOperators fem_operators(const RawDisplacement& raw, const std::vector<Stiffness>& stiffness, const Held& held,
-                           ElementOrder order, bool has_volumetric_stress = false);
+                           ElementOrder order, bool has_volumetric_stress = false, const Springs& springs = {});
 
 }  // namespace sprekk::poromechanics

@@ -33,6 +33,7 @@ FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
       order_(options.order == "first" ? ElementOrder::first : ElementOrder::second) {
   edges_ = find_edges(mesh_, order_ == ElementOrder::second ? EdgesWithFunctions::all : EdgesWithFunctions::at_rims);
   held_ = held_directions(options_, mesh_, edges_);
+  springs_ = springs_of_cells(options_, raw());
   if (edges_.count() > 0)
     of_edges_ = &context.fields.add(mesh_, {.owner = context.name,
                                             .name = "displacement_of_edges",
@@ -82,7 +83,7 @@ void FemRock::discretize() {
   discretized_mesh_ = mesh_.version;
   discretized_stiffness_ = stiffness_.version();
   ++discretizations_;
-  operators_ = fem_operators(raw(), stiffness_.of_cells(), held_, order_, volumetric_ != nullptr);
+  operators_ = fem_operators(raw(), stiffness_.of_cells(), held_, order_, volumetric_ != nullptr, springs_);
   used_alpha_ = 0;
   momentum_.clear();
   int first = 0;
@@ -174,8 +175,9 @@ void FemRock::require_countable() const {
 }
 
 void FemRock::count_from_equilibrium() {
-  keep_settled(settled_forces(options_, raw(), stiffness_.of_cells(), operators_, coefficients(), pore_stress()),
-               given_.displacements);
+  keep_settled(
+      settled_forces(options_, raw(), stiffness_.of_cells(), operators_, springs_, coefficients(), pore_stress()),
+      given_.displacements);
   for (Field* field : unknowns()) field->set_both(Vector::Zero(field->size()));
 }
 

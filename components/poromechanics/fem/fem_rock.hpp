@@ -71,6 +71,7 @@ class FemRock : public LoadedRock, public NeedsDirectSolver {
   Field* volumetric_ = nullptr;  ///< at first order, in nearly incompressible rock: see VolumetricSplit
   Held held_;
   std::uint64_t used_alpha_ = 0;
+  Springs springs_;
   FemOperators operators_;
   GivenLoads given_;
   std::vector<Quantity> momentum_;  ///< of each unknown field

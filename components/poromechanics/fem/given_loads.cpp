@@ -101,6 +101,10 @@ GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const
     return 3 * (displacement(by, x + arm / 2) - displacement(by, x + arm)) + displacement(by, x + 3 * arm / 2);
   };
   const auto at_node = [&](const HeldBy& by, int node) {
+    if (by.pin) {
+      const Place place{mesh.nodes[node], mesh.cell_region[mesh.node_cells[node][0]], 0};
+      return by.share * value_in_step(*by.pin->displacement_along[by.axis], place, step);
+    }
     return has_wall(mesh, node) ? beside_wall(by, mesh.nodes[node]) : displacement(by, mesh.nodes[node]);
   };
   // How much more the middle of an edge is displaced than the mean of its ends.
@@ -133,7 +137,8 @@ GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const
 }
 
 Vector settled_forces(const Options& options, const RawDisplacement& raw, const std::vector<Stiffness>& stiffness,
-                      const FemOperators& operators, const Vector& coefficients, const Vector& pore_stress) {
+                      const FemOperators& operators, const Springs& springs, const Vector& coefficients,
+                      const Vector& pore_stress) {
   const Mesh& mesh = raw.mesh;
   std::vector<double> all;
   for (int c = 0; c < mesh.cell_count(); ++c) {
@@ -144,6 +149,7 @@ Vector settled_forces(const Options& options, const RawDisplacement& raw, const 
     for (int i = 0; i < functions; ++i)
       displacement.segment<dimension>(dimension * i) = coefficients.segment<dimension>(first[i]);
     Eigen::VectorXd forces = cell_stiffness(points, stiffness[c], ElementOrder::second).of_unknowns * displacement;
+    if (const auto spring = springs.find(c); spring != springs.end()) forces += spring->second * displacement;
     if (!options.initial_stress.is_zero() || pore_stress[c] != 0) {
       Eigen::VectorXd of_stress = Eigen::VectorXd::Zero(dimension * (functions + 1));
       for (const CellPoint& point : points) {

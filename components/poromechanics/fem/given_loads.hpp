@@ -27,8 +27,9 @@ GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const
 
 /// The forces of the total stress of every cell on the functions of its corners and faces (RawDisplacement::of_cell),
 /// cell after cell, N/m. `coefficients`: all of them, m; `pore_stress`: what pore pressures add to xx and yy of each
-/// cell, Pa. For the second order.
+/// cell, Pa. With the forces of springs. For the second order.
 Vector settled_forces(const Options& options, const RawDisplacement& raw, const std::vector<Stiffness>& stiffness,
-                      const FemOperators& operators, const Vector& coefficients, const Vector& pore_stress);
+                      const FemOperators& operators, const Springs& springs, const Vector& coefficients,
+                      const Vector& pore_stress);
 
 }  // namespace sprekk::poromechanics

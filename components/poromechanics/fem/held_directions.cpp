@@ -33,7 +33,7 @@ void add(std::vector<Direction>& directions, int side, int axis, const Point& ve
     if (sine(direction.vector, vector) > (is_same ? same_side : parallel)) continue;
     const double sign = direction.vector.dot(vector) < 0 ? -1 : 1;
     direction.vector += sign * vector;
-    direction.by.push_back({by.face, by.axis, sign * by.share});
+    direction.by.push_back({by.face, by.axis, sign * by.share, by.pin});
     return;
   }
   directions.push_back({side, axis, vector, {by}});
@@ -83,7 +83,7 @@ HeldDirections combined(const std::vector<Direction>& all) {
     held.axes = axes;
     held.is_held[place] = true;
     for (const HeldBy& by : directions[0].by)
-      held.by[place].push_back({by.face, by.axis, by.share / directions[0].vector.norm()});
+      held.by[place].push_back({by.face, by.axis, by.share / directions[0].vector.norm(), by.pin});
     return held;
   }
   // The displacements along the held axes, from those along the directions; two in space leave the one across them.
@@ -102,7 +102,8 @@ HeldDirections combined(const std::vector<Direction>& all) {
     if (k == free) continue;
     held.is_held[k] = true;
     for (int i = 0; i < count; ++i)
-      for (const HeldBy& by : directions[i].by) held.by[k].push_back({by.face, by.axis, along(k, i) * by.share});
+      for (const HeldBy& by : directions[i].by)
+        held.by[k].push_back({by.face, by.axis, along(k, i) * by.share, by.pin});
   }
   return held;
 }
@@ -138,6 +139,13 @@ Held held_directions(const Options& options, const Mesh& mesh, const CellEdges& 
         add(at_edges[edge], mesh.face_side[f], k, length * axes.col(k), {f, k, length});
     }
     held.faces[f] = combined(at_face);
+  }
+  for (const auto& [name, point] : options.pinned) {
+    std::vector<Direction> pinned;
+    const int node = pinned_node(point, name, mesh);
+    for (int k = 0; k < dimension; ++k)
+      if (point.displacement_along[k]) pinned.push_back({none, k, Point::Unit(k), {{none, k, 1.0, &point}}});
+    at_nodes[node].insert(at_nodes[node].begin(), pinned.begin(), pinned.end());
   }
   for (const auto& directions : at_nodes) held.nodes.push_back(combined(directions));
   for (const auto& directions : at_edges) held.edges.push_back(combined(directions));

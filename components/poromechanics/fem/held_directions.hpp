@@ -11,10 +11,12 @@
 
 namespace sprekk::poromechanics {
 
-/// Which share of a condition's value is prescribed along a direction: condition direction `axis` of an outer face.
+/// Which share of a condition's value is prescribed along a direction: condition direction `axis` of an outer face, or
+/// of a pinned point.
 struct HeldBy {
   int face, axis;
   double share;
+  const PinnedPoint* pin = nullptr;
 };
 
 /// The directions in which a node or a face is held. `axes`: orthonormal columns, of which those flagged by `is_held`
