@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/principal_axes.hpp"
@@ -30,6 +31,17 @@ std::string direction_text(Point direction) {
   return text + ")";
 }
 
+/// Where prescribed displacements hold a face: by its mean in a plane; in space, where rock is finite elements, at
+/// nodes.
+std::vector<Point> held_points(const Mesh& mesh, int face) {
+  std::vector<Point> points;
+  if (dimension == 2)
+    points.push_back(mesh.face_center[face]);
+  else
+    for (const int node : mesh.face_nodes[face]) points.push_back(mesh.nodes[node]);
+  return points;
+}
+
 void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
   // How prescribed displacements resist the rigid motions: along the axes, and turning about the middle of the rock.
   Point middle = Point::Zero();
@@ -41,13 +53,13 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
   for (int f = 0; f < mesh.face_count(); ++f) {
     const SideCondition* condition = condition_of(options, mesh, f);
     if (!condition) continue;
-    const Point arm = (mesh.face_center[f] - middle) / size;
     const Tensor axes = axes_of(condition->axes(), mesh.face_normal[f]);
-    for (int k = 0; k < dimension; ++k) {
-      Eigen::VectorXd motion(motions);
-      motion << axes.col(k), rotated(arm).transpose() * axes.col(k);
-      if (condition->displacement_of(k)) resistance += motion * motion.transpose();
-    }
+    for (const Point& point : held_points(mesh, f))
+      for (int k = 0; k < dimension; ++k) {
+        Eigen::VectorXd motion(motions);
+        motion << axes.col(k), rotated((point - middle) / size).transpose() * axes.col(k);
+        if (condition->displacement_of(k)) resistance += motion * motion.transpose();
+      }
   }
   const std::string add =
       dimension == 2 ? "add for example 'left: {displacement_x: 0 m}' and 'bottom: {displacement_y: 0 m}' to "

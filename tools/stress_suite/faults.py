@@ -36,8 +36,9 @@ def draw(rng):
     load, young = log_uniform(rng, 1e6, 1e8), log_uniform(rng, 1e9, 1e11)
     loading = choose(rng, stress=0.65, displaced=0.35)
     order = choose(rng, first=0.75, second=0.25)
-    target = log_uniform(rng, 300, 900) / (3 if order == "second" else 1)
-    fractures = space_fractures.draw(rng, low, high, round(log_uniform(rng, 2, 8.4)), shapes=WITHIN if loading == "stress" else None)
+    count = round(log_uniform(rng, 2, 8.4))
+    target = log_uniform(rng, 100, 400) / (4 if order == "second" else 1) / max(1, count / 3)  # fractures make cells smaller
+    fractures = space_fractures.draw(rng, low, high, count, shapes=WITHIN if loading == "stress" else None)
     names = list(fractures)
     has_fluid = rng.random() < 0.6
     p = {"low": low, "high": high, "width": float(max(sides)), "edge": (16 * float(np.prod(sides)) / target) ** (1 / 3), "fractures": fractures,
@@ -150,7 +151,7 @@ def schedule(p):
     if not p["fluid"]:
         return f"schedule: [{{solve: [{mechanics}]}}]"
     if p["in_turn"]:
-        return (f"schedule: [{{iterate: {{until: {{relative: 1e-10, at_most: 200}}, accelerate: {{anderson: 5}}, "
+        return (f"schedule: [{{iterate: {{until: {{relative: 1e-10, at_most: 60}}, accelerate: {{anderson: 5}}, "
                 f"steps: [{{solve: [pore, conduit], stabilize: fixed_stress}}, {{solve: [{mechanics}]}}]}}}}]")
     return f"schedule: [{{solve: [pore, conduit, {mechanics}]}}]"
 
@@ -162,7 +163,7 @@ def write(p, path):
     box = ", ".join(f"{axis}: [{float(a)!r} m, {float(b)!r} m]" for axis, a, b in zip("xyz", p["low"], p["high"]))
     text = [f"# tools/stress --family faults --seed {p['seed']} --only {p['number']}", f"name: faults_{p['number']}", "geometry:", f"  box: {{{box}}}", "  fractures:",
             *(f"    {name}: {{{fracture['text']}}}" for name, fracture in p["fractures"].items()),
-            f"mesh: {{size: {p['edge']!r} m, fracture_size: {p['edge'] * p['finer']!r} m, growth: {p['growth']!r}}}",
+            f"mesh: {{size: {p['edge']!r} m, fracture_size: {p['edge'] * p['finer']!r} m, growth: {p['growth']!r}, gap_edges: 0}}",
             *(["materials:", f"  viscosity: {p['viscosity']!r} Pa*s", f"  fluid_compressibility: {p['compressibility']!r} 1/Pa", f"  biot_coefficient: {p['alpha']!r}"] if p["fluid"] else []),
             "components:", *rock(p), *of_contacts(p), *(flow(p) if p["fluid"] else []), "couplers:", *couplers, schedule(p),
             *([] if p["condense"] else ["solver: {condense: false}"]),
