@@ -128,7 +128,8 @@ void FrictionalContact::after_solve(const std::vector<Field*>& solved, const Ste
   if (!path_) return;
   Vector paths = Vector::Zero(mesh_.fracture_cell_count());
   for (int i = 0; i < paths.size(); ++i)
-    if (is_on_fracture_cell(i)) paths[i] = path(i, gap(i, traction_.now(), jump_.now()));
+    if (is_on_fracture_cell(i))
+      paths[i] = path(i, gap(i, traction_.now(), jump_.now()), magnitude<dimension - 1>(moved(i)));
   path_->set(std::move(paths));
 }
 

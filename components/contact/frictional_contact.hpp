@@ -182,8 +182,8 @@ class FrictionalContact : public Component,
   void evaluate_formulas();
   /// What the walls hold in this state, with derivatives.
   Strength strength(int cell, const WallState& state) const;
-  /// The size of the slip and of that in the step, and the pressure; the path is that at the end of the step.
-  WallState wall_state(int cell, double path, double pressure) const;
+  /// With the path at the end of the step, and the slip in the step.
+  WallState wall_state(int cell, double path, const SlipOfStep& step, double pressure) const;
   /// That at the start of the step, under this normal traction.
   Strength strength_before(int cell, double normal_traction) const;
   bool may_weaken() const { return weakening_.is_on() || formulas_->may_weaken(); }
@@ -195,8 +195,15 @@ class FrictionalContact : public Component,
   double excess(int cell) const;
   /// mu_d; that of the start where friction does not weaken.
   double dynamic_friction(int cell) const;
-  /// The path q of slip and opening at the end of the step, m, with the gap of the cell then.
-  double path(int cell, double gap) const;
+  /// The path q of slip and opening at the end of the step, m, with the gap of the cell then and the size of the slip
+  /// in the step.
+  double path(int cell, double gap, double slip) const;
+  TangentialVector moved(int cell) const;  ///< the slip in the step, m
+  /// Its size. In space, its part along the trial traction: the same in each solution, where walls slide along that,
+  /// and linear from no slip on, where the direction of the slip itself has no meaning. Not with springs between the
+  /// walls, which also move along the change of the traction.
+  SlipOfStep slip_of_step(int cell, const TangentialVector& trial) const;
+  void go_on_below_zero(const SlipOfStep& step, Strength& strength) const;
   static TangentialVector tangential(const Vector& values, int cell);
   /// A number for the state of a cell, and which way it slips, if friction knows; when pieces are followed, it also
   /// tells the piece of |[u]_t|.

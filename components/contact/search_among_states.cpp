@@ -70,8 +70,8 @@ int FrictionalContact::piece(int i) const {
   if (!may_weaken() || now == State::stick) return kink;
   // What is left of the strength depends on the size of the slip in the step, and ends where all is lost.
   const Strength& s = t.strength;
-  const bool is_spent = weakening_.is_on() ? path(i, gap(i, traction_.now(), jump_.now())) >= weakening_.distance
-                                           : lost_by_slip(s, std::min(0.0, t.normal), dt_) == 0;
+  const bool is_spent =
+      weakening_.is_on() ? t.path >= weakening_.distance : lost_by_slip(s, std::min(0.0, t.normal), dt_) == 0;
   return 3 * kink + (is_spent ? 2 : is_forward(path_ ? t.path_by_slip : t.slip_direction));
 }
 

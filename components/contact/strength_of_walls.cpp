@@ -61,9 +61,9 @@ double FrictionalContact::dilation_at(int i, double slip) const {
   return dilation_limit_ && slip > *dilation_limit_ ? 0.0 : dilation_[i];
 }
 
-WallState FrictionalContact::wall_state(int i, double path, double pressure) const {
-  const TangentialVector u_t = tangential(jump_.now(), i), moved = u_t - tangential(jump_.accepted(), i);
-  return {magnitude<dimension - 1>(u_t), path, dt_ > 0 ? magnitude<dimension - 1>(moved) / dt_ : 0, pressure};
+WallState FrictionalContact::wall_state(int i, double path, const SlipOfStep& step, double pressure) const {
+  const double slip = step.is_first ? step.size : magnitude<dimension - 1>(tangential(jump_.now(), i));
+  return {slip, path, dt_ > 0 ? step.size / dt_ : 0, pressure};
 }
 
 Strength FrictionalContact::strength(int i, const WallState& state) const {

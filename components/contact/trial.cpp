@@ -32,11 +32,33 @@ double FrictionalContact::gap(int i, const Vector& traction, const Vector& jump)
          closure(i, traction[dimension * i]);
 }
 
-double FrictionalContact::path(int i, double gap) const {
+TangentialVector FrictionalContact::moved(int i) const {
+  return tangential(jump_.now(), i) - tangential(jump_.accepted(), i);
+}
+
+double FrictionalContact::path(int i, double gap, double slip) const {
   const double before = std::max(0.0, this->gap(i, traction_.accepted(), jump_.accepted()));
-  const double slip =
-      magnitude<dimension - 1>(TangentialVector(tangential(jump_.now(), i) - tangential(jump_.accepted(), i)));
   return path_->accepted()[i] + slip + std::max(0.0, gap - before);
+}
+
+SlipOfStep FrictionalContact::slip_of_step(int i, const TangentialVector& trial) const {
+  constexpr int tangents = dimension - 1;
+  const TangentialVector moved = this->moved(i);
+  const double size = magnitude<tangents>(moved);
+  if (tangents == 1 || multiplier_ == Multiplier::none) return {size, direction_of<tangents>(size > 0 ? moved : trial)};
+  const TangentialVector direction = direction_of<tangents>(trial);
+  const double along = moved.dot(direction);
+  constexpr double round_off = 1e-10;  // of the slip that would take all shear from the walls
+  const bool is_first = magnitude<tangents>(tangential(jump_.accepted(), i)) <=
+                        round_off * magnitude<tangents>(trial) / stiffness()[dimension * i + 1];
+  return {std::max(0.0, along), direction, std::min(0.0, along), is_first};
+}
+
+void FrictionalContact::go_on_below_zero(const SlipOfStep& step, Strength& s) const {
+  const double rate = dt_ > 0 ? step.below_zero / dt_ : 0, slip = step.is_first ? step.below_zero : 0;
+  s.friction += step.below_zero * s.friction_by_path + slip * s.friction_by_slip + rate * s.friction_by_rate;
+  s.cohesion += step.below_zero * s.cohesion_by_path + slip * s.cohesion_by_slip + rate * s.cohesion_by_rate;
+  s.tension += step.below_zero * s.tension_by_path;
 }
 
 double FrictionalContact::overlap(int i) const {
@@ -60,7 +82,10 @@ Trial FrictionalContact::trial(int i) const {
   t.gap = gap(i, traction_.now(), jump_.now());
   t.gap_by_traction = closure_by_traction(i, traction_.now()[row]);
   t.dilation = dilation_at(i, slip);
-  const double path_now = path_ ? path(i, t.gap) : 0;
+  const TangentialVector f_t = tangential(traction_.now(), i);
+  t.tangential = f_t + c_t * (moved(i) - elastic_slip(i));
+  const SlipOfStep step = slip_of_step(i, t.tangential);
+  t.path = path_ ? path(i, t.gap, step.size) : 0;
   t.path_by_slip.setZero();
   t.path_by_gap = 0;
   if (path_) {
@@ -68,18 +93,13 @@ Trial FrictionalContact::trial(int i) const {
     t.path_by_gap = t.gap > before;
   }
   t.gap -= overlap(i);
-  const TangentialVector f_t = tangential(traction_.now(), i);
-  const TangentialVector slipped = u_t - tangential(jump_.accepted(), i) - elastic_slip(i);
   t.normal = traction_.now()[row] + c_n * t.gap;
-  t.tangential = f_t + c_t * slipped;
   const double pressure = std::max(0.0, -t.normal);
-  t.strength = strength(i, wall_state(i, path_now, pressure));
+  t.strength = strength(i, wall_state(i, t.path, step, pressure));
+  if (step.below_zero < 0) go_on_below_zero(step, t.strength);
   t.tension = t.strength.tension;
   t.holds_open = weakening_.is_on() && t.strength.cohesion > 0;
-  const TangentialVector moved = u_t - tangential(jump_.accepted(), i);
-  const TangentialVector motion =
-      direction_of<dimension - 1>(magnitude<dimension - 1>(moved) > 0 ? moved : t.tangential);
-  if (path_) t.path_by_slip = motion;
+  if (path_) t.path_by_slip = step.by_jump;
   t.bound = t.strength.cohesion - t.strength.friction * std::min(0.0, t.normal);
   // Friction that depends on the slip rate has no cone.
   if (rate_and_state_) t.bound = std::numeric_limits<double>::infinity();
@@ -88,8 +108,10 @@ Trial FrictionalContact::trial(int i) const {
   t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
   t.bound_by_pressure =
       t.strength.friction + pressure * t.strength.friction_by_pressure + t.strength.cohesion_by_pressure;
-  t.bound_by_slip = (t.strength.cohesion_by_slip + pressure * t.strength.friction_by_slip) * t.slip_direction;
-  if (dt_ > 0) t.bound_by_slip += (t.strength.cohesion_by_rate + pressure * t.strength.friction_by_rate) / dt_ * motion;
+  t.bound_by_slip = (t.strength.cohesion_by_slip + pressure * t.strength.friction_by_slip) *
+                    (step.is_first ? step.by_jump : t.slip_direction);
+  if (dt_ > 0)
+    t.bound_by_slip += (t.strength.cohesion_by_rate + pressure * t.strength.friction_by_rate) / dt_ * step.by_jump;
   constexpr double round_off = 1e-10;  // of the traction that makes the slip
   t.least_bound = round_off * c_t * magnitude<dimension - 1>(u_t);
   if (rate_and_state_ && rate_and_state_->has_step()) t.at_rate = at_rate(i, t);

@@ -16,6 +16,7 @@ struct Trial : TrialTraction<dimension - 1> {
   TangentialVector slip_direction;  ///< unit
   double dilation;                  ///< d gap / d [u]_t = −dilation · slip_direction^T
   Strength strength;
+  double path;                    ///< at the end of the step, m; 0 without weakening
   TangentialVector path_by_slip;  ///< d path / d [u]_t where the gap is held
   double path_by_gap;
   double bound_by_pressure;        ///< d bound / d (−normal) where the walls touch
@@ -32,6 +33,14 @@ struct Trial : TrialTraction<dimension - 1> {
   bool slides_back() const {
     return bound > least_bound && !is_open() && !sticks() && tangential.dot(slip_direction) < 0;
   }
+};
+
+/// The size of the slip in a step, m, and its derivative by [u]_t.
+struct SlipOfStep {
+  double size;
+  TangentialVector by_jump;
+  double below_zero = 0;  ///< m, negative where the slip is against `by_jump`: laws go on linearly from no slip there
+  bool is_first = false;  ///< whether the walls have not slid before, so that this is their whole slip, too
 };
 
 }  // namespace sprekk::contact

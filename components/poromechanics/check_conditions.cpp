@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/principal_axes.hpp"
@@ -48,6 +49,17 @@ void check_pinned(const Options& options, const Mesh& mesh) {
     }
 }
 
+/// Where prescribed displacements hold a face: by its mean in a plane; in space, where rock is finite elements, at
+/// nodes.
+std::vector<Point> held_points(const Mesh& mesh, int face) {
+  std::vector<Point> points;
+  if (dimension == 2)
+    points.push_back(mesh.face_center[face]);
+  else
+    for (const int node : mesh.face_nodes[face]) points.push_back(mesh.nodes[node]);
+  return points;
+}
+
 void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
   // How prescribed displacements resist the rigid motions: along the axes, and turning about the middle of the rock.
   Point middle = Point::Zero();
@@ -64,16 +76,19 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
   for (int f = 0; f < mesh.face_count(); ++f) {
     const SideCondition* condition = condition_of(options, mesh, f);
     if (!condition) continue;
-    const Point arm = (mesh.face_center[f] - middle) / size;
     const Tensor axes = axes_of(condition->axes(), mesh.face_normal[f]);
-    for (int k = 0; k < dimension; ++k)
-      if (condition->displacement_of(k)) resist(arm, axes.col(k));
-    if (!condition->has_spring()) continue;
+    Tensor spring = Tensor::Zero();
+    if (condition->has_spring())
+      spring =
+          condition->spring_at({mesh.face_center[f], mesh.cell_region[mesh.face_cells[f][0]], 0}, mesh.face_normal[f]);
     const Tensor along = axes_of(ConditionAxes::of_face, mesh.face_normal[f]);
-    const Place place{mesh.face_center[f], mesh.cell_region[mesh.face_cells[f][0]], 0};
-    const Tensor spring = condition->spring_at(place, mesh.face_normal[f]);
-    for (int k = 0; k < dimension; ++k)
-      if (along.col(k).dot(spring * along.col(k)) > 0) resist(arm, along.col(k));
+    for (const Point& point : held_points(mesh, f)) {
+      const Point arm = (point - middle) / size;
+      for (int k = 0; k < dimension; ++k) {
+        if (condition->displacement_of(k)) resist(arm, axes.col(k));
+        if (along.col(k).dot(spring * along.col(k)) > 0) resist(arm, along.col(k));
+      }
+    }
   }
   for (const auto& [name, point] : options.pinned) {
     const Point arm = (mesh.nodes[pinned_node(point, name, mesh)] - middle) / size;

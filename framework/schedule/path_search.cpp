@@ -20,13 +20,16 @@ struct Crossing {
   double before = 0, behind = 0;
 };
 
-/// The first crossing within `limit`, or none. `is_same` says whether a length is still in the piece: pieces are
-/// convex, so if a length is in the piece, all shorter lengths are.
+/// The first crossing within `limit`, or none. `is_same` says whether a length is still in the piece. In a plane pieces
+/// are convex, so if a length is in the piece, all shorter lengths are. In space they need not be, as what is outside
+/// of a cone: lengths are tried from a short one on, since a line that turns back at a crossing leaves the piece at
+/// once.
 template <class IsSame>
 std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
   constexpr double sharpness = 1e-13, shortest = 1e-16;  // of a length: some hundred roundings; and the shortest one
+  constexpr double first = dimension == 2 ? 1 : 1.0 / (1 << 20);  // about the length of a step off kinks, below
   SPREKK_EXPECT(limit > 0, limit);
-  Crossing crossing{0, std::min(1.0, limit)};
+  Crossing crossing{0, std::min(first, limit)};
   while (is_same(crossing.behind)) {
     if (crossing.behind >= limit) return std::nullopt;
     crossing = {crossing.behind, 2 * crossing.behind};

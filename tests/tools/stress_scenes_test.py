@@ -69,7 +69,7 @@ class Scenes(unittest.TestCase):
         self.assertLess(min(found), 6)
 
     def test_fractures_lie_in_the_box(self):
-        for p in (ranges.draw(2, number, family) for number in range(200) for family in ranges.FAMILIES if family != "space"):
+        for p in (ranges.draw(2, number, family) for number in range(200) for family in ranges.FAMILIES if family not in ranges.IN_SPACE):
             for a, b in fractures.segments(p).values():
                 for x, y in (a, b):
                     self.assertTrue(-1e-9 <= x <= p["width"] * (1 + 1e-9) and 0 <= y <= p["height"], p["number"])

@@ -2,14 +2,14 @@
 
 import shutil
 
-from . import buoyancy, check_balance, check_contact, check_end, check_finite, check_growing, check_heat, check_pressure, check_space, check_wells, growing, physics, ranges, run, scene, schemes, space, swaps, written
+from . import buoyancy, check_balance, check_contact, check_end, check_faults, check_finite, check_growing, check_heat, check_pressure, check_space, check_wells, faults, growing, physics, ranges, run, scene, schemes, space, swaps, written
 
 
 def describe(p):
     if p["family"] == "growing":
         return growing.describe(p)
-    if p["family"] == "space":
-        return space.describe(p)
+    if p["family"] in scene.IN_SPACE:
+        return scene.IN_SPACE[p["family"]].describe(p)
     more = scene.MORE[p["family"]].describe(p) if p["family"] in scene.MORE else ""
     return (f"{swaps.describe(p)}{buoyancy.describe(p)}{more}dt = {p['relative_step']:.0e} of diffusion, k = {p['permeability']:.0e}, alpha = {p['alpha']:.2f}, "
             f"S = {p['storage']:.0e}, nu = {p['poisson']:.4f}, friction = {p['friction']:.2f}, "
@@ -40,11 +40,14 @@ def check_fields(program, chosen, p, folder):
     instants, history = written.instants(folder), written.history(folder)
     if p["family"] == "growing":
         return check_growing.failures(p, instants, history)
-    found = check_finite.failures(instants, history)
+    several = faults.contacts(p) if p["family"] == "faults" else ()
+    found = check_finite.failures(instants, history, left_out=several if len(several) > 1 else ())
     if found or not instants:
         return found
     if p["family"] == "space":
         return check_space.failures(p, instants, history)
+    if p["family"] == "faults":
+        return check_faults.failures(p, instants, history)
     brought = check_wells.sources(p, history, instants[0]) if p["family"] == "wells" else None
     found = (check_contact.failures(p, instants) + check_balance.failures(p, instants, history, main=0, brought=brought) +
              check_pressure.failures(p, instants, history, strain_told(folder)))
@@ -63,17 +66,19 @@ def cuts_of_the_monolithic_scheme(program, chosen, number, folder):
 
 
 def look_further(program, chosen, p, path, ended, report):
-    """Of a scene in space: what a refusal says, how far pressures are beyond what is given, and its twin."""
+    """Of a scene in space: what a refusal says, how far pressures of flow alone are beyond what is given, and its twin."""
+    check = {"space": check_space, "faults": check_faults}[p["family"]]
     if report["outcome"] == "refused":
         report["failures"] += check_space.refusal(ended.stderr)
     elif report["outcome"] == "gave up":
         report["failures"].append(f"end: exit code 1: {report['reason']}")
     elif report["outcome"] == "answer":
-        instants = written.instants(ended.folder)
-        report["overshoot"] = check_space.overshoot(p, instants, check_space.Places(instants[0]))[1]
+        instants = written.instants(ended.folder) if check is check_space else []
+        if instants:
+            report["overshoot"] = check_space.overshoot(p, instants, check_space.Places(instants[0]))[1]
         if p["twin"] != "none" and chosen.processes == 1:
             report["twin"] = p["twin"]
-            report["failures"] += check_space.twin(program, p, path, path.parent, chosen.limit)
+            report["failures"] += check.twin(program, p, path, path.parent, chosen.limit)
 
 
 def examine(program, chosen, number, folder, keep=False):
@@ -101,7 +106,7 @@ def examine(program, chosen, number, folder, keep=False):
         if report["accepted"] > 0:
             report["balance"] = check_balance.relative_error_of_balance(written.history(ended.folder))
             report["failures"] += check_fields(program, chosen, p, ended.folder)
-    if p["family"] == "space":
+    if p["family"] in scene.IN_SPACE:
         look_further(program, chosen, p, path, ended, report)
     if report["failures"]:
         report["outcome"] = "failed"

@@ -2,7 +2,7 @@
 
 import random
 
-from . import buoyancy, growing, heat, limited_wells, schemes, space, swaps
+from . import buoyancy, faults, growing, heat, limited_wells, schemes, space, swaps
 from .draws import choose, log_uniform, sometimes
 
 
@@ -82,7 +82,8 @@ def meeting(rng):
     }
 
 
-FAMILIES = ("separate", "meeting", "growing", "heat", "wells", "space")
+FAMILIES = ("separate", "meeting", "growing", "heat", "wells", "space", "faults")
+IN_SPACE = {"space": space, "faults": faults}
 MORE = {"meeting": meeting, "heat": heat.draw, "wells": limited_wells.draw}  # what families draw besides
 
 
@@ -90,8 +91,8 @@ def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=sche
     rng = random.Random(f"{seed}:{number}" if family == "separate" else f"{family}:{seed}:{number}")
     if family == "growing":
         return {"seed": seed, "number": number, "family": family, "update": update, **growing.draw(rng)}
-    if family == "space":
-        return {"seed": seed, "number": number, "family": family, **space.draw(rng)}
+    if family in IN_SPACE:
+        return {"seed": seed, "number": number, "family": family, **IN_SPACE[family].draw(rng)}
     p = {"seed": seed, "number": number, "family": family, "solved": scheme, **material(rng), **geometry(rng), **loading(rng), **fluid(rng),
          **time(rng)}
     if swapped:

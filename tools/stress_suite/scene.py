@@ -2,7 +2,7 @@
 
 import math
 
-from . import buoyancy, fractures, growing, heat, limited_wells, physics, schemes, space, swaps, twisted_mesh
+from . import buoyancy, faults, fractures, growing, heat, limited_wells, physics, schemes, space, swaps, twisted_mesh
 
 
 def box_and_mesh(p):
@@ -47,6 +47,7 @@ def wells(p):
     return lines
 
 
+IN_SPACE = {"space": space, "faults": faults}
 MORE = {"heat": heat, "wells": limited_wells}  # components and couplers of families
 
 
@@ -55,8 +56,8 @@ def write(p, folder):
     folder.mkdir(parents=True, exist_ok=True)
     if p["family"] == "growing":
         return growing.write(p, folder / "scene.yaml")
-    if p["family"] == "space":
-        return space.write(p, folder / "scene.yaml")
+    if p["family"] in IN_SPACE:
+        return IN_SPACE[p["family"]].write(p, folder / "scene.yaml")
     if p["mesh"] == "twisted":
         twisted_mesh.write(p, folder / "mesh.msh")
         shape = "geometry: {file: mesh.msh}"

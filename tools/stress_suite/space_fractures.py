@@ -78,8 +78,12 @@ def polygon(rng, low, high, share, through):
     return normal, cut_by_box([centre + size * (math.cos(t) * first + flatness * math.sin(t) * second) for t in turns], low, high)
 
 
-def in_general_position(rng, low, high, others):
-    shape = rng.choices(("through", "polygon", "ending", "rectangle", "disc", "ellipse"), (0.15, 0.25, 0.15, 0.2, 0.15, 0.1))[0]
+SHARES = {"through": 0.15, "polygon": 0.25, "ending": 0.15, "rectangle": 0.2, "disc": 0.15, "ellipse": 0.1}
+
+
+def in_general_position(rng, low, high, others, shapes=None):
+    shares = {shape: share for shape, share in SHARES.items() if not shapes or shape in shapes}
+    shape = rng.choices(tuple(shares), tuple(shares.values()))[0]
     planes = [other for other in others if other.get("normal") is not None and other["shape"] == "through"]
     if shape == "ending" and not planes:
         shape = "through"
@@ -142,11 +146,11 @@ def on_planes(rng, low, high, cells, others):
     return None
 
 
-def draw(rng, low, high, count, cells=None):
-    """{name: fracture}"""
+def draw(rng, low, high, count, cells=None, shapes=None):
+    """{name: fracture}; in general position of these shapes alone."""
     found = []
     for _ in range(count):
-        new = on_planes(rng, low, high, cells, found) if cells else in_general_position(rng, low, high, found)
+        new = on_planes(rng, low, high, cells, found) if cells else in_general_position(rng, low, high, found, shapes)
         if new:
             found.append(new)
     return {f"f{i}": fracture for i, fracture in enumerate(found)}

@@ -14,7 +14,7 @@ import sprekk  # noqa: E402
 
 @dataclass
 class Instant:
-    """Fields at the end of a step. Fracture tensors have the columns normal, tangential."""
+    """Fields at the end of a step. Vectors on fractures have the columns normal, tangential; in space two tangential ones."""
 
     time: float
     matrix: sprekk.Grid
@@ -28,7 +28,8 @@ class Instant:
         data = self.fractures.cell_data
         if f"{name}[{unit}]" in data:
             return data[f"{name}[{unit}]"]
-        return np.column_stack([data[f"{name}.normal[{unit}]"], data[f"{name}.tangential[{unit}]"]])
+        parts = [part for part in ("normal", "tangential", "tangential1", "tangential2") if f"{name}.{part}[{unit}]" in data]
+        return np.column_stack([data[f"{name}.{part}[{unit}]"] for part in parts])
 
 
 def exit_record(folder):

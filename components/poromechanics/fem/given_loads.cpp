@@ -96,9 +96,10 @@ GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const
     return by.share * value_in_step(data, {x, mesh.cell_region[mesh.face_cells[by.face][0]], 0}, step);
   };
   // Where a fracture ends the datum may jump: its value on this side continues those along the face (by a parabola).
+  // Half of a triangle beyond its centre is another edge, where the datum may jump again.
   const auto beside_wall = [&](const HeldBy& by, const Point& x) {
-    const Point arm = mesh.face_center[by.face] - x;
-    return 3 * (displacement(by, x + arm / 2) - displacement(by, x + arm)) + displacement(by, x + 3 * arm / 2);
+    const Point arm = (mesh.face_center[by.face] - x) / dimension;
+    return 3 * (displacement(by, x + arm) - displacement(by, x + 2 * arm)) + displacement(by, x + 3 * arm);
   };
   const auto at_node = [&](const HeldBy& by, int node) {
     if (by.pin) {
