@@ -145,6 +145,8 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
     disperse(rock_.value && flow_in_rock_ && !is_in_rock && has(flow_in_rock_->pressure()),
              fractures_.value && !is_in_fractures && has(fracture_->flux()));
     if (!is_in_rock && !is_in_fractures) return;
+    disperses_late_ = !options_.dispersivity.is_zero() &&
+                      std::ranges::any_of(flow_->fields(), [&](const Field* field) { return has(*field); });
     const FlowRates rates = flow_->rates(has, step);
     const Mixtures wells = wells_.mixtures(rates.wells);
     if (is_in_rock) count(rock_, streams_of_rock(sources(), rates, flow_->fluxes_in_rock(has, step)), wells, step);
@@ -218,7 +220,14 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
       for (const Vector& at_start : at_start_) note_cold(notes, name(), at_start, given);
     if (!other_aperture_.empty()) notes.add(name() + ": another aperture for " + carried_.quantity, other_aperture_);
   }
-  void note_step(Notes& notes, const StepTime&) const override { wells_.note(name(), notes); }
+  void note_step(Notes& notes, const StepTime&) const override {
+    wells_.note(name(), notes);
+    if (disperses_late_)
+      notes.add(name() + ": dispersion of the step before",
+                "the dispersion of '" + name() +
+                    "' is that of the flow of the step before, and none in the first step (" + carried_.quantity +
+                    " and flow are in one 'solve') solve the flow before, in a step of its own");
+  }
 
   std::vector<double> switch_times() const override {
     std::vector<const Data*> data;
@@ -431,6 +440,7 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   FluidContents rock_, fractures_;
   std::optional<HeldFlow> flow_;
   std::vector<std::pair<std::string, double>> injected_;  ///< values in this step
+  bool disperses_late_ = false;  ///< whether the last solve had a flow with which dispersion could not go
 };
 
 /// Flowing fluid carries heat.

@@ -242,6 +242,11 @@ class Tracer(SpaceRuns):
                     for values in concentrations(results):
                         self.assertTrue(0 < values.min() and values.max() < 3 * (1 + 1e-12))
 
+    def test_dispersion_that_is_late_is_told(self):
+        for schedule, is_late in ((BOTH, False), ("[{solve: [pore, conduit, salt, water]}]", True)):
+            results = self.run_text(flowing(2, **UNEVEN, schedule=schedule, spread=SPREAD))
+            self.assertEqual(any("of the step before" in str(note) for note in results.notes), is_late, results.notes)
+
     def test_dispersion(self):
         """Reference: the same scene with that much more diffusion, phi D + alpha_T |q| I + (alpha_L - alpha_T) q q^T/|q|: in a column, in a flow that is oblique to
         all axes, in a plane and in space, along a fracture."""
