@@ -15,6 +15,15 @@
 #include "framework/schedule/residual_check.hpp"
 
 namespace sprekk {
+namespace {
+
+/// In space columns cost as much as some factorizations, which only pieces need: a linear problem has one system.
+LinearOptions in_pieces(LinearOptions linear, bool has_pieces) {
+  if (dimension == 3 && !has_pieces) linear.condense = false;
+  return linear;
+}
+
+}  // namespace
 
 Newton::Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*> parts, const LinearOptions& linear,
                const NewtonOptions& options, std::string name, IterationLog log)
@@ -25,7 +34,7 @@ Newton::Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*
       name_(std::move(name)),
       log_(std::move(log)),
       system_(mesh, {unknowns_.begin(), unknowns_.end()}),
-      linear_(make_condensing_solver(linear)) {
+      linear_(make_condensing_solver(in_pieces(linear, !pieces_.empty()))) {
   system_.use_sums(is_direct(linear, system_.size()));
   SPREKK_EXPECT(options_.residual > 0 && options_.update > 0, options_.residual, options_.update);
   SPREKK_EXPECT(options_.at_most > 0, options_.at_most);

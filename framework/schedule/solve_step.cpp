@@ -92,8 +92,7 @@ Spec solver_spec(LinearOptions& options) {
   if (dimension == 3) {
     options.largest_for_direct = largest_in_space;
     options.largest_for_direct_instead = largest_in_space_instead;
-    // Measured on slipping discs; a linear problem, whose bulk has one system, is not condensed.
-    options.condensing = {.columns = 700, .columns_at_once = 700, .width = 5, .power = 2.0 / 3, .worth_at_once = 0};
+    options.condensing = {.columns = 700, .columns_at_once = 700, .width = 5, .power = 2.0 / 3};  // slipping discs
   }
   Spec spec("solver", "The solver of linear systems.");
   spec.choice(

@@ -10,7 +10,7 @@ SCENE = ROOT / "configs/tutorial/slipping_disc.yaml"
 COARSE = ("mesh.size=100m", "mesh.fracture_size=20m", "mesh.growth=2", "time.end=2day")
 CUBIC = "components.conduit.transmissivity=a^3/12"
 CONSTANT = "components.contact.friction=0.6 + slip/(1e30 m)"  # what slip adds is far below round-off
-WEAKENING = "components.contact.friction=max(0.3, 0.6 - slip/(5 mm))"
+WEAKENING = "components.contact.friction=max(0.3, 0.6 - slip/(20 mm))"  # slower than the rock unloads the walls
 
 
 class FormulasInSpace(SceneRuns):
@@ -27,7 +27,7 @@ class FormulasInSpace(SceneRuns):
         self.assertLess(self.largest_difference(two, one), 1e-8)
 
     def test_a_disturbed_friction_slips_almost_as_far(self):
-        one, other = (self.run_scene(SCENE, *COARSE, f"components.contact.friction=max(0.3, 0.6 - slip*{factor!r}/(5 mm))") for factor in (1, 1 + 1e-9))
+        one, other = (self.run_scene(SCENE, *COARSE, f"components.contact.friction=max(0.3, 0.6 - slip*{factor!r}/(20 mm))") for factor in (1, 1 + 1e-9))
         self.assertLess(self.largest_difference(other, one), 1e-7)
 
 

@@ -182,7 +182,7 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   ++bulk.systems;
   if (!bulk.is_tried) {
     const double cost = cost_of_columns(split, options_);
-    if (cost > options_.condensing.worth_at_once && bulk.systems <= std::max(1.0, cost))
+    if (cost > options_.condensing.worth_at_once && bulk.systems <= cost)
       return LinearReport::failure("condensing costs more than the few systems that the bulk has had so far");
     bulk.report = bulk.schur.compute(split, *bulk.solver, options_.bulk_changes_often);
     bulk.is_tried = true;
