@@ -4,6 +4,7 @@ tests and runs; and plug-ins that cannot be used are refused with the reason."""
 
 import csv
 import json
+import math
 import os
 import subprocess
 import sys
@@ -70,6 +71,54 @@ def check_law(folder, plugin, kind, parameters):
     whole = rows_of(folder / "whole")
     assert len(whole) == 4 and rows_of(folder / "part") == whole, (whole, rows_of(folder / "part"))
     for row, twin in zip(whole, rows_of(folder / "two"), strict=True):
+        assert all(abs(twin[key] - value) <= 1e-11 * max(abs(value), 1e-3) for key, value in row.items()), (row, twin)
+
+
+IN_SPACE = """
+geometry:
+  box: {x: [0 m, 1 m], y: [0 m, 1 m], z: [0 m, 1 m]}
+  fractures: {joint: {points: [[0 m, 0 m, 0.5 m], [1 m, 0 m, 0.5 m], [1 m, 1 m, 0.5 m], [0 m, 1 m, 0.5 m]]}}
+mesh: {size: 0.5 m}
+components:
+  rock:
+    type: poromechanics/fem
+    young_modulus: 25 GPa
+    poisson_ratio: 0.25
+    boundary:
+      left: &moved
+        displacement:
+          - "0.6*(6 MPa*(0.3 + 0.3*exp(-2*t/(1 s)))/(10 GPa)*z + if(z > 0.5 m, 2 mm*t/(1 s), 0))"
+          - "-0.8*(6 MPa*(0.3 + 0.3*exp(-2*t/(1 s)))/(10 GPa)*z + if(z > 0.5 m, 2 mm*t/(1 s), 0))"
+          - "-6 MPa/(30 GPa)*z"
+      right: *moved
+      front: *moved
+      back: *moved
+      bottom: *moved
+      top: *moved
+  walls: {type: contact/coulomb, friction: 0.6, friction_law: {type: lost_in_space, lost_in_space: {residual: 0.3, distance: 1 mm}}}
+couplers: [{type: wall_traction, between: [rock, walls]}]
+schedule: [{solve: [rock, walls], newton: {residual: 1e-13, update: 1e-12}}]
+time: {end: 1 s, step: 0.25 s}
+output: {fields: false, probes: {traction: {of: walls.traction, fracture: joint, take: mean}}}
+"""
+
+
+def check_friction_in_space(scratch, package):
+    """The scene of the template in space, where the walls slip in another direction than along an axis."""
+    folder = scratch / "lost_in_space"
+    expect(call(program, "new", "law", folder.name, "--kind", "friction", where=scratch), 0)
+    expect(build(folder, package, "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-Dsprekk_DIMENSION=3"), 0)
+    (folder / "space.yaml").write_text(IN_SPACE, encoding="utf-8")
+    chosen = (str(folder / "space.yaml"), "-q", "--plugin", str(folder / "build/lost_in_space.so"))
+    expect(call(program, "run", *chosen, "-o", str(folder / "law")), 0)
+    expect(call(program, "run", *chosen, "-o", str(folder / "formula"), "--set", "components.walls.friction_law=null",
+                "--set", "components.walls.friction=0.3 + 0.3*exp(-path/(1 mm))"), 0)
+    rows, twins = rows_of(folder / "law"), rows_of(folder / "formula")
+    assert len(rows) == 4
+    for row, twin in zip(rows, twins, strict=True):
+        along, across, held = row["traction.t1[Pa]"], row["traction.t2[Pa]"], 6e6 * (0.3 + 0.3 * math.exp(-2 * row["time[s]"]))
+        assert abs(math.hypot(along, across) / held - 1) < 1e-10 and abs(abs(across / along) / (4 / 3) - 1) < 1e-10, row
+        assert row["iterations[1]"] == twin["iterations[1]"]
         assert all(abs(twin[key] - value) <= 1e-11 * max(abs(value), 1e-3) for key, value in row.items()), (row, twin)
 
 
@@ -158,6 +207,7 @@ with tempfile.TemporaryDirectory() as name:
     make(scratch_folder, "law", "mated_badly", build_folder, "--kind", "transmissivity")
     check_law(*make(scratch_folder, "law", "lost_friction", build_folder, "--kind", "friction"), "friction", ("residual: quantity", "distance: quantity in m"))
     check_law(*make(scratch_folder, "law", "log_closure", build_folder, "--kind", "closure"), "closure", ("length: quantity in m", "pressure: quantity in Pa"))
+    check_friction_in_space(scratch_folder, build_folder)
     make(scratch_folder, "accelerator", "alternating", build_folder)
     make(scratch_folder, "output", "extremes", build_folder)
     expect(call(cmake, "--install", build_folder, "--prefix", str(scratch_folder / "prefix")), 0)
