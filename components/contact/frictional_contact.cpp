@@ -40,7 +40,11 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
                      "add fractures to `geometry:` or remove the component");
   const std::vector<Place> places = places_of_parameters(mesh_, here_);
   formulas_ = std::make_unique<Formulas>(
-      LawData{options_->friction, options_->cohesion, options_->dilation, options_->closure.formula}, places);
+      LawData{options_->friction, options_->cohesion, options_->dilation, options_->closure.formula},
+      options_->friction_law.build(), places);
+  if (formulas_->friction() && formulas_->friction_law())
+    throw InputError(context.origin, "the friction of '" + context.name + "' is a formula, and changes by itself",
+                     "'friction_law' says how a constant one changes", "remove one of the two");
   if (formulas_->friction() && (options.depends_on_rate || options.dynamic_friction))
     throw InputError(context.origin, "the friction of '" + context.name + "' is a formula, and changes by itself",
                      "'rate_and_state' and the friction of 'weakening' say how a constant one changes",

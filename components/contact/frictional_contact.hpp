@@ -180,6 +180,8 @@ class FrictionalContact : public Component,
   double closure_by_traction(int cell, double normal_traction) const;  ///< its derivative, m/Pa
   /// Friction and dilation of formulas where nothing has slid.
   void evaluate_formulas();
+  /// The coefficient of friction by this law. Throws DataError where it is negative or not finite.
+  OfWalls friction_by_law(int cell, const FrictionLaw& law, const WallState& state) const;
   /// What the walls hold in this state, with derivatives.
   Strength strength(int cell, const WallState& state) const;
   /// With the path at the end of the step, and the slip in the step.

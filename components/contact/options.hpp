@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "components/contact/laws/closure_options.hpp"
+#include "components/contact/laws/friction_options.hpp"
 #include "components/contact/laws/rate_and_state_options.hpp"
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
@@ -17,7 +18,8 @@ namespace sprekk::contact {
 
 /// Parameters of the contact law.
 struct Options {
-  Data friction;                         ///< mu_s
+  Data friction;  ///< mu_s
+  FrictionOptions friction_law;
   Data dilation_angle;                   ///< psi, rad
   std::optional<double> dilation_limit;  ///< m
   std::optional<Data> dilation;          ///< m, the opening by slip, instead of the two above

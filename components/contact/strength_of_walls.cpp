@@ -1,5 +1,6 @@
 // What walls hold, how far slip opens them and pressure closes them: by numbers, built-in laws, or formulas.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "components/contact/frictional_contact.hpp"
 #include "components/contact/laws/closure.hpp"
+#include "components/contact/options.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
 
@@ -66,16 +68,34 @@ WallState FrictionalContact::wall_state(int i, double path, const SlipOfStep& st
   return {slip, path, dt_ > 0 ? step.size / dt_ : 0, pressure};
 }
 
+OfWalls FrictionalContact::friction_by_law(int i, const FrictionLaw& law, const WallState& state) const {
+  OfWalls f = law.at(friction_[i], state);
+  const bool is_finite = std::ranges::all_of(f.by, [](double by) { return std::isfinite(by); });
+  if (f.value >= 0 && std::isfinite(f.value) && is_finite) return f;
+  throw DataError(InputError(origin_,
+                             fmt::format("the law of friction '{}' gives {:.6g}, with the derivatives {:.6g}, at {}",
+                                         options_->friction_law.type, f.value, fmt::join(f.by, ", "),
+                                         to_text(mesh_.fracture_cells[i].center)),
+                             fmt::format("slip {:.6g} m, path {:.6g} m, slip rate {:.6g} m/s, pressure {:.6g} Pa; a "
+                                         "coefficient is finite and not negative",
+                                         state[slip_of_walls], state[path_of_walls], state[slip_rate_of_walls],
+                                         state[pressure_of_walls]),
+                             "correct the law, or its parameters")
+                      .what());
+}
+
 Strength FrictionalContact::strength(int i, const WallState& state) const {
   const StateFormula *friction = formulas_->friction(), *cohesion = formulas_->cohesion();
-  if (!friction && !cohesion) return weakening_.at(friction_[i], dynamic_friction(i), state[path_of_walls]);
+  const FrictionLaw* law = formulas_->friction_law();
+  if (!friction && !cohesion && !law) return weakening_.at(friction_[i], dynamic_friction(i), state[path_of_walls]);
   OfWalls f{friction_[i]}, c{weakening_.cohesion};
   if (friction) f.value = friction->at(i, state, f.by);
+  if (law) f = friction_by_law(i, *law, state);
   SPREKK_ASSERT(f.value >= 0, i, f.value);
   if (cohesion) c.value = cohesion->at(i, state, c.by);
   Weakening weakening = weakening_;
   weakening.cohesion = c.value;
-  Strength s = weakening.at(f.value, friction ? f.value : dynamic_friction(i), state[path_of_walls]);
+  Strength s = weakening.at(f.value, friction || law ? f.value : dynamic_friction(i), state[path_of_walls]);
   const double left = c.value > 0 ? s.cohesion / c.value : 0;
   s.friction_by_path += f.by[path_of_walls];
   s.cohesion_by_path += left * c.by[path_of_walls];

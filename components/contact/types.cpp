@@ -19,6 +19,8 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
              .in_time = true});
   usually(spec, "friction", usual_friction());
   may_be_formula(spec.name(), "friction", strength_variables());
+  spec.section("friction_law", friction_law.spec(),
+               {.doc = "How friction changes with slip, path, slip rate and pressure, from `friction` on."});
   spec.data("dilation_angle", dilation_angle,
             {.unit = "rad",
              .range = between(0, 1.5),
@@ -78,6 +80,10 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
     if (dilation && dilation->is_constant() && !dilation->is_zero())
       throw InputError(node.find("dilation")->origin, "'dilation' does not depend on the slip",
                        "it is the opening that slip makes", "write a formula of slip, such as 0.1*slip");
+    if (friction_law.type != "constant" && (dynamic_friction || depends_on_rate))
+      throw InputError(node.find("friction_law")->origin, "the law of friction is given twice",
+                       depends_on_rate ? "'rate_and_state' is another one" : "'friction' of 'weakening' is another one",
+                       "remove one of them");
     if (weakens && depends_on_rate)
       throw InputError(node.find("rate_and_state")->origin, "'rate_and_state' and 'weakening' exclude each other",
                        "each says how friction changes with slip", "remove one of them");

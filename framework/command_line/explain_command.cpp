@@ -1,6 +1,7 @@
 #include "framework/command_line/explain_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "framework/config/inner_path.hpp"
 #include "framework/config/node_paths.hpp"
 #include "framework/config/unknown_key.hpp"
+#include "framework/scene/law_kinds.hpp"
 #include "framework/scene/registry.hpp"
 #include "framework/scene/scene.hpp"
 #include "framework/schedule/schedule_context.hpp"
@@ -72,20 +74,35 @@ void print_list(std::ostream& out) {
     out << "  " << item.name << std::string(item.name.size() < 24 ? 24 - item.name.size() : 1, ' ') << item.spec.doc()
         << "\n";
   }
+  for (const LawKind& laws : law_kinds()) {
+    out << "\nlaws of " << laws.name << ", by " << laws.key << "\n";
+    for (const auto& [name, doc] : laws.laws()) out << fmt::format("  {:<23} {}\n", name, doc);
+  }
 }
 
 namespace {
 
+/// A meaning of a name inside of types or sections, which may share it.
+struct Meaning {
+  std::string path, text;
+  std::vector<std::string> wholes;
+};
+
+void add_meaning(std::vector<Meaning>& meanings, std::string path, std::string text, const std::string& whole) {
+  for (Meaning& known : meanings)
+    if (known.path == path && known.text == text) return known.wholes.push_back(whole);
+  meanings.push_back({std::move(path), std::move(text), {whole}});
+}
+
 /// What a name stands for inside of a spec: its parameters and the values of choices (laws, accelerators).
 void add_inside(const Spec& spec, const std::string& path, const std::string& name, const std::string& whole,
-                std::string& text) {
+                std::vector<Meaning>& meanings) {
   for (const Parameter& parameter : spec.parameters()) {
-    if (parameter.name == name)
-      text += fmt::format("{}, in {}\n{}", joined_path(path, name), whole, explain(parameter));
+    if (parameter.name == name) add_meaning(meanings, joined_path(path, name), explain(parameter), whole);
     for (const auto& [value, doc] : parameter.choices)
       if (value == name)
-        text += fmt::format("{}: {}, in {}\n  {}\n", joined_path(path, parameter.name), value, whole, doc);
-    if (parameter.inner) add_inside(*parameter.inner, inner_path(path, parameter), name, whole, text);
+        add_meaning(meanings, joined_path(path, parameter.name) + ": " + value, "  " + doc + "\n", whole);
+    if (parameter.inner) add_inside(*parameter.inner, inner_path(path, parameter), name, whole, meanings);
   }
 }
 
@@ -101,13 +118,18 @@ std::string explanation(const std::string& name) {
   const std::vector<Explained> all = everything();
   for (const Explained& item : all)
     if (item.name == name) return explain(item.spec);
-  std::string text;
+  std::vector<Meaning> meanings;
   std::vector<std::string> names;
   for (const Explained& item : all) {
-    add_inside(item.spec, "", name, item.name, text);
+    add_inside(item.spec, "", name, item.name, meanings);
     names.push_back(item.name);
   }
-  if (!text.empty()) return text;
+  if (!meanings.empty()) {
+    std::string text;
+    for (const Meaning& meaning : meanings)
+      text += fmt::format("{}, in {}\n{}", meaning.path, fmt::join(meaning.wholes, ", "), meaning.text);
+    return text;
+  }
   // Names of parameters are suggested where no type is near, and are too many to be listed.
   const std::string advice = name_advice(name, names, "");
   std::vector<std::string> inner;

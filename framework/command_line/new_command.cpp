@@ -6,13 +6,14 @@
 #include <fstream>
 #include <iostream>
 
+#include "framework/scene/law_kinds.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk {
 
 namespace {
 
-constexpr const char* of_any_kind = "any";
+constexpr const char *of_any_kind = "any", *of_law = "law.";
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_of_word(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
@@ -38,6 +39,12 @@ void check_type(const std::string& type, const std::string& kind) {
   if (std::any_of(registry.components().begin(), registry.components().end(), is_this) ||
       std::any_of(registry.couplers().begin(), registry.couplers().end(), is_this))
     throw InputError({"sprekk new"}, "the type " + quoted(type) + " exists", "", "choose another name");
+  if (kind != "law") return;
+  for (const LawKind& laws : law_kinds())
+    for (const auto& [name, doc] : laws.laws())
+      if (name == type)
+        throw InputError({"sprekk new"}, "a law of " + laws.name + " is called " + quoted(type), "",
+                         "choose another name");
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -51,29 +58,36 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 NewCommand::NewCommand(CLI::App& app, const std::vector<TemplateFile>& templates)
     : command_(app.add_subcommand("new",
                                   "Writes a folder with a component, a coupler, a law, an accelerator or an output to "
-                                  "start from, outside of this "
-                                  "tree")),
+                                  "start from, outside of this tree")),
       templates_(templates) {
-  command_->add_option("kind", kind_, "What it is; a law is how a fracture conducts")
-      ->required()
-      ->check(CLI::IsMember(kinds()));
+  command_->add_option("kind", kind_, "What it is")->required()->check(CLI::IsMember(kinds("")));
   command_->add_option("name", type_, "The name of its type, for example my_part or heat_flow/my_part")
       ->required()
       ->type_name("NAME");
+  command_->add_option("--kind", law_, "Of a law, and needed there: what it is for")
+      ->check(CLI::IsMember(kinds(of_law)));
   command_->add_option("-o,--output", folder_, "The folder; one of that name here by default")->type_name("FOLDER");
 }
 
-std::vector<std::string> NewCommand::kinds() const {
+std::vector<std::string> NewCommand::kinds(const std::string& begin) const {
   std::vector<std::string> kinds;
-  for (const TemplateFile& file : templates_)
-    if (file.kind != of_any_kind && std::find(kinds.begin(), kinds.end(), file.kind) == kinds.end())
-      kinds.push_back(file.kind);
+  for (const TemplateFile& file : templates_) {
+    if (file.kind == of_any_kind || !file.kind.starts_with(begin)) continue;
+    const std::string rest = file.kind.substr(begin.size()), kind = rest.substr(0, rest.find('.'));
+    if (std::ranges::find(kinds, kind) == kinds.end()) kinds.push_back(kind);
+  }
   return kinds;
 }
 
 void NewCommand::run() const {
   namespace fs = std::filesystem;
   check_type(type_, kind_);
+  if (kind_ != "law" && command_->count("--kind") > 0)
+    throw InputError({"sprekk new"}, "'--kind' has no effect", "it says what a law is for", "remove it");
+  if (kind_ == "law" && law_.empty())
+    throw InputError({"sprekk new"}, "'--kind' is missing", "there are laws of " + listed(kinds(of_law)),
+                     "write for example: sprekk new law " + type_ + " --kind " + kinds(of_law).back());
+  const std::string kind = kind_ == "law" ? of_law + law_ : kind_;
   const std::string name = replaced(type_, "/", "_");
   std::string class_name;
   bool begins = true;
@@ -92,7 +106,7 @@ void NewCommand::run() const {
   };
   fs::create_directories(folder);
   for (const TemplateFile& file : templates_) {
-    if (file.kind != kind_ && file.kind != of_any_kind) continue;
+    if (file.kind != kind && file.kind != of_any_kind) continue;
     std::ofstream out(folder / filled(file.name));
     out << filled(file.text);
     if (!out.flush()) throw std::runtime_error("cannot write " + (folder / filled(file.name)).string());

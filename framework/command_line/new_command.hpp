@@ -10,7 +10,7 @@ namespace sprekk {
 /// A file of the folder that `sprekk new` writes. In its name and text, __type__, __name__ and __Class__ stand for
 /// "flow/my-part", "flow_my_part" and "FlowMyPart".
 struct TemplateFile {
-  std::string kind;  ///< "component"; "any": in folders of all kinds
+  std::string kind;  ///< "component"; "any": in folders of all kinds; "law.friction": laws of that kind
   std::string name, text;
 };
 
@@ -24,11 +24,12 @@ class NewCommand {
   void run() const;
 
  private:
-  std::vector<std::string> kinds() const;
+  /// Of what the templates are; of laws, after "law.".
+  std::vector<std::string> kinds(const std::string& begin) const;
 
   CLI::App* command_;
   const std::vector<TemplateFile>& templates_;
-  std::string kind_, type_, folder_;
+  std::string kind_, type_, folder_, law_;
 };
 
 }  // namespace sprekk

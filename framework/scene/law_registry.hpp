@@ -10,6 +10,7 @@
 
 #include "framework/config/spec.hpp"
 #include "framework/plugin/plugin.hpp"
+#include "framework/scene/law_kinds.hpp"
 
 namespace sprekk {
 
@@ -29,15 +30,27 @@ class LawRegistry {
     std::function<Unread()> begin;
   };
 
+  /// With the names of the laws that are built in, and what they are: no other one may take them.
+  explicit LawRegistry(NamesWithDocs built_in = {}) : built_in_(std::move(built_in)) {}
+
   void add(Type type) {
+    for (const auto& [name, doc] : built_in_)
+      if (name == type.name) return refuse_registration(type.name);
     for (const Type& known : types_)
       if (known.name == type.name) return refuse_registration(type.name);
     note_registration(type.name);
     types_.push_back(std::move(type));
   }
   const std::vector<Type>& types() const { return types_; }
+  /// Of all laws: those that are built in, then the registered ones.
+  NamesWithDocs names() const {
+    NamesWithDocs names = built_in_;
+    for (const Type& type : types_) names.emplace_back(type.name, type.doc);
+    return names;
+  }
 
  private:
+  NamesWithDocs built_in_;
   std::vector<Type> types_;
 };
 

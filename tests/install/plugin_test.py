@@ -2,7 +2,9 @@
 """plugin_test.py BUILD CMAKE: what `sprekk new` writes builds against an installation, and against the build folder, passes its own
 tests and runs; and plug-ins that cannot be used are refused with the reason."""
 
+import csv
 import json
+import math
 import os
 import subprocess
 import sys
@@ -29,9 +31,9 @@ def build(folder, package, *settings):
     return call(cmake, "--build", str(folder / "build"))
 
 
-def make(scratch, kind, name, package):
+def make(scratch, kind, name, package, *more):
     folder = scratch / name.replace("/", "_")
-    expect(call(program, "new", kind, name, where=scratch), 0, "wrote")
+    expect(call(program, "new", kind, name, *more, where=scratch), 0, "wrote")
     # Few optimizations: the test is shorter.
     expect(build(folder, package, "-DCMAKE_CXX_FLAGS_RELEASE=-O1"), 0)
     expect(call("ctest", "--test-dir", str(folder / "build"), "--output-on-failure"), 0, "100% tests passed")
@@ -49,6 +51,75 @@ def check_use(folder, plugin):
     expect(call(program, "schema", "--plugin", str(plugin)), 0, "heat_flow/decay_of_heat")
     expect(call("mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", program, "run", str(folder / "scene.yaml"), "-q", "-o",
                 str(folder / "two"), "--plugins", str(folder)), 0)
+
+
+def rows_of(folder):
+    with open(folder / "history.csv", encoding="utf-8") as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def check_law(folder, plugin, kind, parameters):
+    """It is listed and explained; two processes give its answer, and a run that goes on the same bits."""
+    scene, chosen = str(folder / "scene.yaml"), ("-q", "--plugin", str(plugin), "--set", "plugins=null")
+    expect(call(program, "list", "--plugin", str(plugin)), 0, f"laws of {kind}, by ", f"  {folder.name} ")
+    expect(call(program, "explain", folder.name, "--plugin", str(plugin)), 0, *parameters, "in contact/augmented_lagrangian, contact/coulomb, contact/penalty")
+    expect(call(program, "new", "law", folder.name, "--kind", kind, "-o", str(folder / "again"), plugins=str(plugin)), 2, f"a law of {kind} is called")
+    expect(call(program, "run", scene, *chosen, "-o", str(folder / "whole")), 0)
+    expect(call(program, "run", scene, *chosen, "-o", str(folder / "part"), "--set", "time.end=0.5 s"), 0)
+    expect(call(program, "run", scene, *chosen, "-o", str(folder / "part"), "--restart", str(folder / "part/checkpoint.h5")), 0)
+    expect(call("mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "2", program, "run", scene, *chosen, "-o", str(folder / "two")), 0)
+    whole = rows_of(folder / "whole")
+    assert len(whole) == 4 and rows_of(folder / "part") == whole, (whole, rows_of(folder / "part"))
+    for row, twin in zip(whole, rows_of(folder / "two"), strict=True):
+        assert all(abs(twin[key] - value) <= 1e-11 * max(abs(value), 1e-3) for key, value in row.items()), (row, twin)
+
+
+IN_SPACE = """
+geometry:
+  box: {x: [0 m, 1 m], y: [0 m, 1 m], z: [0 m, 1 m]}
+  fractures: {joint: {points: [[0 m, 0 m, 0.5 m], [1 m, 0 m, 0.5 m], [1 m, 1 m, 0.5 m], [0 m, 1 m, 0.5 m]]}}
+mesh: {size: 0.5 m}
+components:
+  rock:
+    type: poromechanics/fem
+    young_modulus: 25 GPa
+    poisson_ratio: 0.25
+    boundary:
+      left: &moved
+        displacement:
+          - "0.6*(6 MPa*(0.3 + 0.3*exp(-2*t/(1 s)))/(10 GPa)*z + if(z > 0.5 m, 2 mm*t/(1 s), 0))"
+          - "-0.8*(6 MPa*(0.3 + 0.3*exp(-2*t/(1 s)))/(10 GPa)*z + if(z > 0.5 m, 2 mm*t/(1 s), 0))"
+          - "-6 MPa/(30 GPa)*z"
+      right: *moved
+      front: *moved
+      back: *moved
+      bottom: *moved
+      top: *moved
+  walls: {type: contact/coulomb, friction: 0.6, friction_law: {type: lost_in_space, lost_in_space: {residual: 0.3, distance: 1 mm}}}
+couplers: [{type: wall_traction, between: [rock, walls]}]
+schedule: [{solve: [rock, walls], newton: {residual: 1e-13, update: 1e-12}}]
+time: {end: 1 s, step: 0.25 s}
+output: {fields: false, probes: {traction: {of: walls.traction, fracture: joint, take: mean}}}
+"""
+
+
+def check_friction_in_space(scratch, package):
+    """The scene of the template in space, where the walls slip in another direction than along an axis."""
+    folder = scratch / "lost_in_space"
+    expect(call(program, "new", "law", folder.name, "--kind", "friction", where=scratch), 0)
+    expect(build(folder, package, "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-Dsprekk_DIMENSION=3"), 0)
+    (folder / "space.yaml").write_text(IN_SPACE, encoding="utf-8")
+    chosen = (str(folder / "space.yaml"), "-q", "--plugin", str(folder / "build/lost_in_space.so"))
+    expect(call(program, "run", *chosen, "-o", str(folder / "law")), 0)
+    expect(call(program, "run", *chosen, "-o", str(folder / "formula"), "--set", "components.walls.friction_law=null",
+                "--set", "components.walls.friction=0.3 + 0.3*exp(-path/(1 mm))"), 0)
+    rows, twins = rows_of(folder / "law"), rows_of(folder / "formula")
+    assert len(rows) == 4
+    for row, twin in zip(rows, twins, strict=True):
+        along, across, held = row["traction.t1[Pa]"], row["traction.t2[Pa]"], 6e6 * (0.3 + 0.3 * math.exp(-2 * row["time[s]"]))
+        assert abs(math.hypot(along, across) / held - 1) < 1e-10 and abs(abs(across / along) / (4 / 3) - 1) < 1e-10, row
+        assert row["iterations[1]"] == twin["iterations[1]"]
+        assert all(abs(twin[key] - value) <= 1e-11 * max(abs(value), 1e-3) for key, value in row.items()), (row, twin)
 
 
 def check_trust(scratch, folder):
@@ -98,6 +169,10 @@ def check_refusals(scratch, folder, plugin):
     expect(call(program, "new", "component", "heat_flow/decay_of_heat", "-o", str(folder)), 2, "exists", "nothing is overwritten")
     expect(call(program, "new", "component", "matrix_flow/mpfa"), 2, "exists")
     expect(call(program, "new", "law", "friction/my_law", where=scratch), 2, "of a law has a '/'", "my_law")
+    expect(call(program, "new", "law", "barton_bandis", "--kind", "closure", where=scratch), 2, "a law of closure is called 'barton_bandis'")
+    expect(call(program, "new", "law", "my_law", where=scratch), 2, "'--kind' is missing", "closure, friction, transmissivity")
+    expect(call(program, "new", "law", "my_law", "--kind", "viscosity", where=scratch), 2, "transmissivity")
+    expect(call(program, "new", "coupler", "my_coupler", "--kind", "friction", where=scratch), 2, "'--kind' has no effect")
     for name in ("1st", "a b", "a//b", "/a", "a/", ""):
         expect(call(program, "new", "component", name, where=scratch), 2, "no name of a type")
 
@@ -129,7 +204,10 @@ def check_refusals(scratch, folder, plugin):
 with tempfile.TemporaryDirectory() as name:
     scratch_folder = Path(name)
     make(scratch_folder, "coupler", "leakage", build_folder)
-    make(scratch_folder, "law", "mated_badly", build_folder)
+    make(scratch_folder, "law", "mated_badly", build_folder, "--kind", "transmissivity")
+    check_law(*make(scratch_folder, "law", "lost_friction", build_folder, "--kind", "friction"), "friction", ("residual: quantity", "distance: quantity in m"))
+    check_law(*make(scratch_folder, "law", "log_closure", build_folder, "--kind", "closure"), "closure", ("length: quantity in m", "pressure: quantity in Pa"))
+    check_friction_in_space(scratch_folder, build_folder)
     make(scratch_folder, "accelerator", "alternating", build_folder)
     make(scratch_folder, "output", "extremes", build_folder)
     expect(call(cmake, "--install", build_folder, "--prefix", str(scratch_folder / "prefix")), 0)

@@ -39,20 +39,24 @@ class BartonBandis : public Closure {
 }  // namespace
 
 ClosureLaws& closure_laws() {
-  static ClosureLaws registered;
+  static ClosureLaws registered(
+      {{"hard", "not at all"},
+       {"linear", "closure = pressure/stiffness"},
+       {"barton_bandis",
+        "pressure = stiffness c/(1 - c/largest), with the closure c (Bandis, Lumsden and Barton 1983)"},
+       {"formula", "the formula given as `closure`"}});
   return registered;
 }
 
+namespace {
+
+const RegisterLawKind kind_of_closure({"closure", "closure: {law: NAME}", [] { return closure_laws().names(); }});
+
+}  // namespace
+
 Spec ClosureOptions::spec() {
-  std::vector<std::pair<std::string, std::string>> laws = {
-      {"hard", "not at all"},
-      {"linear", "closure = pressure/stiffness"},
-      {"barton_bandis",
-       "pressure = stiffness c/(1 - c/largest), with the closure c (Bandis, Lumsden and Barton 1983)"}};
-  laws.emplace_back("formula", "the formula given as `closure`");
-  for (const ClosureLaws::Type& type : closure_laws().types()) laws.emplace_back(type.name, type.doc);
   Spec spec("closure", "How far walls in contact approach each other under pressure.");
-  spec.choice("law", law, std::move(laws),
+  spec.choice("law", law, closure_laws().names(),
               {.doc = "The law. Closure counts from zero pressure, where the fracture has its initial aperture: a "
                       "fracture under pressure begins narrower than that."});
   spec.quantity("stiffness", stiffness,

@@ -1,6 +1,7 @@
 // How far walls in contact approach each other under pressure.
 #pragma once
 
+#include "components/contact/laws/no_input.hpp"
 #include "framework/scene/law_registry.hpp"
 
 namespace sprekk::contact {
@@ -18,7 +19,6 @@ class Closure {
 };
 
 /// Further laws, which plug-ins register.
-struct NoInput {};
 using ClosureLaws = LawRegistry<Closure, NoInput>;
 ClosureLaws& closure_laws();
 

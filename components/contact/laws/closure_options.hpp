@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 
+#include "components/contact/laws/no_input.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/law_registry.hpp"
 
 namespace sprekk::contact {
 
 class Closure;
-struct NoInput;
 
 /// Parameters of the closure.
 struct ClosureOptions {

@@ -1,5 +1,7 @@
 #include "components/contact/laws/formulas.hpp"
 
+#include <utility>
+
 namespace sprekk::contact {
 
 const StateVariables& strength_variables() {
@@ -22,7 +24,8 @@ const StateVariables& closure_variables() {
   return variables;
 }
 
-Formulas::Formulas(const LawData& laws, const std::vector<Place>& places) {
+Formulas::Formulas(const LawData& laws, std::unique_ptr<FrictionLaw> friction_law, const std::vector<Place>& places)
+    : friction_law_(std::move(friction_law)) {
   if (StateFormula friction(laws.friction, strength_variables(), places); friction.is_formula())
     friction_.emplace(std::move(friction));
   if (!laws.cohesion.is_constant()) cohesion_.emplace(laws.cohesion, strength_variables(), places);
@@ -36,7 +39,8 @@ void Formulas::set_time(double t) {
 }
 
 bool Formulas::strength_names(WallVariable variable) const {
-  return (friction_ && friction_->names(variable)) || (cohesion_ && cohesion_->names(variable));
+  return (friction_ && friction_->names(variable)) || (friction_law_ && friction_law_->depends_on(variable)) ||
+         (cohesion_ && cohesion_->names(variable));
 }
 
 }  // namespace sprekk::contact

@@ -1,29 +1,18 @@
 // Formulas of the state in laws of the contact.
 #pragma once
 
-#include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "components/contact/laws/friction.hpp"
 #include "framework/assembly/state_fields.hpp"
 
 namespace sprekk::contact {
 
-/// What walls have done and bear: slip (m, its size), path (m, of slip and opening), slip rate (m/s), and the pressure
-/// between them (Pa, not negative).
-using WallState = std::array<double, 4>;
-/// Their places in it.
-enum WallVariable : std::size_t { slip_of_walls, path_of_walls, slip_rate_of_walls, pressure_of_walls };
-
 const StateVariables& strength_variables();  ///< of friction and cohesion, as WallState has them
 const StateVariables& dilation_variables();  ///< the slip
 const StateVariables& closure_variables();   ///< the pressure
-
-/// A value, with its derivatives by the variables.
-struct OfWalls {
-  double value = 0;
-  WallState by{};
-};
 
 /// What a scene says of laws that may be formulas.
 struct LawData {
@@ -31,13 +20,15 @@ struct LawData {
   const std::optional<Data>&dilation, &closure;
 };
 
-/// The laws of a contact that are formulas, or data that numbers and built-in laws do not cover.
+/// The laws of a contact that are formulas or come from plug-ins, or data that numbers and built-in laws do not cover.
 class Formulas {
  public:
-  Formulas(const LawData& laws, const std::vector<Place>& places);
+  /// `friction_law`: null where friction is a number, a formula, or that of a built-in law.
+  Formulas(const LawData& laws, std::unique_ptr<FrictionLaw> friction_law, const std::vector<Place>& places);
   void set_time(double t);  ///< s
 
   const StateFormula* friction() const { return pointer(friction_); }
+  const FrictionLaw* friction_law() const { return friction_law_.get(); }
   const StateFormula* cohesion() const { return pointer(cohesion_); }
   const StateFormula* dilation() const { return pointer(dilation_); }
   const StateFormula* closure() const { return pointer(closure_); }
@@ -53,6 +44,7 @@ class Formulas {
     return formula ? &*formula : nullptr;
   }
   std::optional<StateFormula> friction_, cohesion_, dilation_, closure_;
+  std::unique_ptr<FrictionLaw> friction_law_;
 };
 
 }  // namespace sprekk::contact

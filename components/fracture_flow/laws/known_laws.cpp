@@ -28,16 +28,22 @@ const std::vector<Entry>& laws() {
 }  // namespace
 
 HydraulicLaws& hydraulic_laws() {
-  static HydraulicLaws registered;
+  static HydraulicLaws registered = [] {
+    NamesWithDocs built_in;
+    for (const Entry& law : laws()) built_in.emplace_back(law.name, law.doc);
+    built_in.emplace_back("constant", "the value given as transmissivity, whatever the aperture is");
+    built_in.emplace_back("formula", "the formula of the state given as transmissivity");
+    return HydraulicLaws(std::move(built_in));
+  }();
   return registered;
 }
 
-std::vector<std::pair<std::string, std::string>> hydraulic_law_names() {
-  std::vector<std::pair<std::string, std::string>> names;
-  for (const Entry& law : laws()) names.emplace_back(law.name, law.doc);
-  for (const HydraulicLaws::Type& law : hydraulic_laws().types()) names.emplace_back(law.name, law.doc);
-  return names;
-}
+namespace {
+
+const RegisterLawKind kind_of_transmissivity({"transmissivity", "law: {type: NAME}",
+                                              [] { return hydraulic_laws().names(); }});
+
+}  // namespace
 
 std::unique_ptr<HydraulicLaw> make_hydraulic_law(const std::string& name, const HydraulicLawParameters& parameters) {
   SPREKK_EXPECT(parameters.lowest > 0, parameters.lowest);

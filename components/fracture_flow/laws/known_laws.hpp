@@ -3,8 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "components/fracture_flow/laws/hydraulic_law.hpp"
 #include "framework/scene/law_registry.hpp"
@@ -22,9 +20,7 @@ struct HydraulicLawParameters {
 using HydraulicLaws = LawRegistry<HydraulicLaw, double>;
 HydraulicLaws& hydraulic_laws();
 
-/// The names that a scene may write for laws of the aperture, each with what it says.
-std::vector<std::pair<std::string, std::string>> hydraulic_law_names();
-/// The law of this name.
+/// The built-in law of this name, which follows from the aperture.
 std::unique_ptr<HydraulicLaw> make_hydraulic_law(const std::string& name, const HydraulicLawParameters& parameters);
 
 }  // namespace sprekk::fracture_flow

@@ -10,11 +10,8 @@ namespace sprekk::fracture_flow {
 
 Spec LawOptions::spec() {
   Spec spec("law", "How well the fracture conducts, by its aperture a.");
-  std::vector<std::pair<std::string, std::string>> types = hydraulic_law_names();
-  types.emplace_back("constant", "the value given as transmissivity, whatever the aperture is");
-  types.emplace_back("formula", "the formula of the state given as transmissivity");
   spec.choice(
-      "type", type, std::move(types),
+      "type", type, hydraulic_laws().names(),
       {.doc = "How the tangential transmissivity K_i follows from the aperture.", .source = "below the paper's Eq. 8"});
   spec.quantity("residual", residual,
                 {.unit = "m",

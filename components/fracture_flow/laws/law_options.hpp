@@ -12,7 +12,7 @@ namespace sprekk::fracture_flow {
 
 /// What a scene writes under `law`.
 struct LawOptions {
-  std::string type = "cubic";          ///< of hydraulic_law_names(), or "constant"
+  std::string type = "cubic";          ///< of hydraulic_laws()
   std::optional<double> residual;      ///< m
   std::optional<double> roughness;     ///< m
   std::optional<Data> transmissivity;  ///< m^3, of a constant one
