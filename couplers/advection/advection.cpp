@@ -377,6 +377,9 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
       if (stream.flux != Stream::Flux::none)
         by_flux[static_cast<int>(stream.flux)].emplace_back(stream.cell, stream.flux_index,
                                                             scale * stream.by_flux * difference);
+      for (const auto& [ridge, by_flux_there] : stream.by_ridges)
+        by_flux[static_cast<int>(Stream::Flux::ridge)].emplace_back(stream.cell, ridge,
+                                                                    scale * by_flux_there * difference);
     }
     assembly.add(unknown, capacity.cwiseProduct(unknown.now() - unknown.accepted()));
     assembly.add(unknown, carried);

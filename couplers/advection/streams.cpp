@@ -1,5 +1,8 @@
 #include "couplers/advection/streams.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::couplers {
@@ -65,6 +68,37 @@ void append_wells(const StreamSources& sources, const Vector& rates, const Field
   }
 }
 
+/// The streams between the cells at a junction. Ridges have fluxes between pairs of cells, whose drops of pressure they
+/// follow; a cell of a pressure in between would take from some and give to others what never enters it. So what a cell
+/// gives, q > 0, or takes, q < 0, is its sum, and cell i gives q_i (−q_j)/S to cell j, with S all that is given.
+void append_junction(const Mesh& mesh, const Junction& junction, const Vector& fluxes, std::vector<Stream>& streams) {
+  std::map<int, double> given;
+  for (const int ridge : junction.ridges) {
+    given[mesh.ridges[ridge].cells[0]] += fluxes[ridge];
+    given[mesh.ridges[ridge].cells[1]] -= fluxes[ridge];
+  }
+  double all = 0;
+  for (const auto& [cell, rate] : given) all += std::max(rate, 0.0);
+  if (all == 0) return;
+  for (const auto& [from, out] : given) {
+    for (const auto& [to, minus_in] : given) {
+      if (out <= 0 || minus_in >= 0) continue;
+      const double in = -minus_in, rate = out * in / all;
+      Stream entering{to, rate, Stream::From::fracture_cell, from};
+      for (const int ridge : junction.ridges) {
+        const std::vector<int>& cells = mesh.ridges[ridge].cells;
+        const auto by_ridge = [&](int cell) { return cell == cells[0] ? 1.0 : cell == cells[1] ? -1.0 : 0.0; };
+        const auto gives = [&](int cell) { return given.at(cell) > 0 ? by_ridge(cell) : 0.0; };
+        const double all_by_ridge = gives(cells[0]) + gives(cells[1]);
+        const double by = (by_ridge(from) * in - out * by_ridge(to) - rate * all_by_ridge) / all;
+        if (by != 0) entering.by_ridges.emplace_back(ridge, by);
+      }
+      streams.push_back(entering);
+      streams.push_back({from, -rate, Stream::From::fracture_cell, to});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes) {
@@ -97,8 +131,11 @@ std::vector<Stream> streams_of_fractures(const StreamSources& sources, const Flo
   if (!sources.fracture || !sources.in_fractures) return streams;
   const Mesh& mesh = sources.mesh;
   const Vector& fluxes = rates.points;
+  std::vector<bool> at_junction(mesh.ridges.size(), false);
+  for (const Junction& junction : mesh.junctions)
+    for (const int ridge : junction.ridges) at_junction[ridge] = true;
   for (int p = 0; p < static_cast<int>(mesh.ridges.size()); ++p) {
-    if (fluxes[p] == 0) continue;
+    if (fluxes[p] == 0 || at_junction[p]) continue;
     const Ridge& point = mesh.ridges[p];
     for (std::size_t k = 0; k < point.cells.size(); ++k) {
       const double sign = k == 0 ? -1 : 1;
@@ -112,6 +149,7 @@ std::vector<Stream> streams_of_fractures(const StreamSources& sources, const Flo
       streams.push_back(with_flux(stream, Stream::Flux::ridge, p, sign));
     }
   }
+  for (const Junction& junction : mesh.junctions) append_junction(mesh, junction, fluxes, streams);
   append_walls(sources, rates.walls, -1, streams);
   append_sources(sources, rates.sources_in_fractures, false, streams);
   append_wells(sources, rates.wells, sources.fracture_pressure, false, streams);

@@ -29,6 +29,8 @@ struct Stream {
   Flux flux = Flux::none;
   int flux_index = none;
   double by_flux = 0;  ///< d rate / d flux
+  /// At a junction: d rate / d flux by each ridge there, in the place of the one flux.
+  std::vector<std::pair<int, double>> by_ridges = {};
 };
 
 /// The rates of fluid that hold in a step, without those through faces. What is missing is empty.
@@ -63,7 +65,8 @@ struct StreamSources {
 /// The streams of cells of the rock that the process owns. `fluxes`: through each face, m^2/s (in space m^3/s), out of
 /// face_cells[f][0].
 std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes);
-/// The streams of all fracture cells. A reservoir supplies what its cells lose to others, and takes what they gain.
+/// The streams of all fracture cells. At a junction all that flows in mixes, and each cell that takes fluid gets of the
+/// mixture. A reservoir supplies what its cells lose to others, and takes what they gain.
 std::vector<Stream> streams_of_fractures(const StreamSources& sources, const FlowRates& rates);
 
 }  // namespace sprekk::couplers

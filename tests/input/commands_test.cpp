@@ -134,7 +134,7 @@ TEST(Show, IsASceneThatMeansTheSame) {
 
 TEST(Check, AcceptsTheScenesThatComeAlong) {
   // Scenes without dimensions, one with heads and hydraulic conductivities, and a network that encloses small pockets.
-  const std::map<std::string, std::string> notes = {{"berre_regular_network", "one without dimensions"},
+  const std::map<std::string, std::string> notes = {{"berre_regular_network", "'viscosity' is '1 Pa*s'"},
                                                     {"berre_small_features", "one without dimensions"},
                                                     {"berre_single_fracture", "'viscosity' is '1 Pa*s'"},
                                                     {"biot_manufactured", "one without dimensions"},

@@ -130,6 +130,32 @@ time: {{end: 3 h, step: 1 h}}
 """
 
 
+def crossing(sides, schedule):
+    """Four equal arms with pressures 4, 3, 1 and 0 at their ends, on the sides in this order: the first two give fluid to the crossing."""
+    one, two, three, four = sides
+    return f"""
+name: crossing
+geometry:
+  box: {{x: [0 m, 10 m], y: [0 m, 10 m]}}
+  fractures: {{along: {{points: [[0 m, 5 m], [10 m, 5 m]]}}, across: {{points: [[5 m, 0 m], [5 m, 10 m]]}}}}
+mesh: {{size: 1 m}}
+components:
+  conduit: {{type: fracture_flow/tpfa, viscosity: 1 mPa*s, fluid_compressibility: 0 1/Pa, initial_aperture: 1 mm,
+    boundary: {{{one}: {{pressure: 4 Pa}}, {two}: {{pressure: 3 Pa}}, {three}: {{pressure: 1 Pa}}, {four}: {{pressure: 0 Pa}}}}}}
+  water: {{type: fracture_transport/tpfa, aperture: 1 mm, diffusion: 1e-14 m^2/s,
+    boundary: {{{one}: {{concentration: 1 kg/m^3}}, {two}: {{concentration: 0.25 kg/m^3}}}}}}
+couplers: [{{type: tracer_advection, between: [conduit, water]}}]
+schedule: {schedule}
+time: {{end: 1e9 s, step: 1e8 s}}
+output:
+  probes:
+    left: {{of: water.concentration, at: [4.9 m, 5 m]}}
+    bottom: {{of: water.concentration, at: [5 m, 4.9 m]}}
+    top: {{of: water.concentration, at: [5 m, 5.1 m]}}
+    right: {{of: water.concentration, at: [5.1 m, 5 m]}}
+"""
+
+
 def oblique(q, diffusion, spread):
     """A uniform flow q (m/s) through a box, which carries a cloud."""
     axes = "xyz"[:len(q)]
@@ -290,6 +316,14 @@ class Tracer(SpaceRuns):
         for mirror in (False, True):
             turned = self.run_scene(self.turned(path, 90, mirror=mirror))
             self.assertLess(self.largest_difference(one, turned, columns), 1e-7)
+
+    def test_what_meets_at_a_crossing_mixes(self):
+        """Reference: fluxes 2, 1, -1 and -2, of which those that enter mix to (2 + 0.25)/3, and the cells that give are not reached by others."""
+        for schedule in ("[{solve: conduit}, {solve: water}]", "[{solve: [conduit, water]}]"):
+            for sides in (("left", "bottom", "top", "right"), ("right", "bottom", "top", "left"), ("top", "left", "right", "bottom")):
+                last = self.run_text(crossing(sides, schedule)).history
+                for side, value in zip(sides, (1, 0.25, 0.75, 0.75)):
+                    self.assertLess(abs(last[f"{side}[kg/m^3]"][-1] - value), 1e-8, (sides, side))
 
     def test_a_restart_keeps_the_bits(self):
         for dimension in (2, 3):
