@@ -1,5 +1,6 @@
 // fracture_transport/tpfa: a tracer in fractures, which diffuses by two points.
 #include "components/capabilities/concentration.hpp"
+#include "components/capabilities/tracer_options.hpp"
 #include "components/capabilities/usual_ranges.hpp"
 #include "components/fracture_transport/fracture_transport.hpp"
 #include "framework/scene/registry.hpp"
@@ -28,21 +29,9 @@ struct TracerOptions : Options {
                .required = true,
                .fixed = "the fluxes are discretized once"});
     usually(spec, "diffusion", usual_diffusion());
-    spec.data("retardation", capacity,
-              {.unit = "",
-               .range = {.low = 1},
-               .doc = "Tracer in the fluid and sorbed at the walls (linear, in equilibrium) over that in the fluid.",
-               .fixed = "the tracer is counted by changes of the concentration"});
-    spec.data("decay", decay,
-              {.unit = "1/s",
-               .range = non_negative(),
-               .doc = "Rate of decay, ln(2) over the half-life, of what is dissolved and sorbed.",
-               .fixed = "it is that of a substance"});
-    spec.data("initial_concentration", initial_value,
-              {.unit = "kg/m^3",
-               .range = non_negative(),
-               .doc = "Concentration at the start, per volume of fluid.",
-               .fixed = "it is what the run starts from"});
+    declare_tracer(spec, capacity,
+                   "Tracer in the fluid and sorbed at the walls (linear, in equilibrium) over that in the fluid.",
+                   decay, initial_value);
     declare_sides(spec, *this, carried_tracer);
     crossings.declare(spec, "diffusion",
                       {.unit = "m^2/s",

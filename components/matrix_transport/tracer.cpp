@@ -1,5 +1,6 @@
 // matrix_transport/tpfa and matrix_transport/mpfa: a tracer in the matrix with these approximations of diffusion.
 #include "components/capabilities/concentration.hpp"
+#include "components/capabilities/tracer_options.hpp"
 #include "components/capabilities/usual_ranges.hpp"
 #include "components/matrix_transport/matrix_transport.hpp"
 #include "framework/scene/registry.hpp"
@@ -35,21 +36,9 @@ struct TracerOptions : Options {
                  .required = true,
                  .fixed = "the fluxes are discretized once"});
     usually(spec, "diffusion", usual_diffusion());
-    spec.data("retardation", capacity,
-              {.unit = "",
-               .range = {.low = 1},
-               .doc = "Tracer in the pores and sorbed at their walls (linear, in equilibrium) over that in the pores.",
-               .fixed = "the tracer is counted by changes of the concentration"});
-    spec.data("decay", decay,
-              {.unit = "1/s",
-               .range = non_negative(),
-               .doc = "Rate of decay, ln(2) over the half-life, of what is dissolved and sorbed.",
-               .fixed = "it is that of a substance"});
-    spec.data("initial_concentration", initial_value,
-              {.unit = "kg/m^3",
-               .range = non_negative(),
-               .doc = "Concentration at the start, per volume of fluid.",
-               .fixed = "it is what the run starts from"});
+    declare_tracer(spec, capacity,
+                   "Tracer in the pores and sorbed at their walls (linear, in equilibrium) over that in the pores.",
+                   decay, initial_value);
     spec.data("source", source,
               {.unit = "kg/(m^3*s)",
                .doc = "Tracer that comes into the rock without fluid, per volume of rock and time.",

@@ -118,8 +118,9 @@ def check_friction_in_space(scratch, package):
     for row, twin in zip(rows, twins, strict=True):
         along, across, held = row["traction.t1[Pa]"], row["traction.t2[Pa]"], 6e6 * (0.3 + 0.3 * math.exp(-2 * row["time[s]"]))
         assert abs(math.hypot(along, across) / held - 1) < 1e-10 and abs(abs(across / along) / (4 / 3) - 1) < 1e-10, row
-        # All cells are alike: round-off decides which of them slide first.
-        assert abs(row.pop("iterations[1]") - twin["iterations[1]"]) <= 1
+        # Later steps begin with all walls on their cone, and round-off decides which of them slide at first.
+        iterations = row.pop("iterations[1]")
+        assert row["time[s]"] > 0.25 or iterations == twin["iterations[1]"]
         assert all(abs(twin[key] - value) <= 1e-11 * max(abs(value), 1e-3) for key, value in row.items()), (row, twin)
 
 

@@ -6,7 +6,7 @@ slip is known as well as its length."""
 
 import numpy as np
 
-from . import check_end, faults, physics, run, space, written
+from . import faults, physics, twins, written
 
 PRECISION = 1e-8
 TOLERANCE = 1e-6  # of twins, as compare.py
@@ -140,20 +140,9 @@ def differences(p, one, other, tolerance):
 
 def twin(program, p, scene, folder, limit):
     """Runs the scene's twin, and compares it with the run in folder/results."""
-    place, tolerance = folder / "twin", TOLERANCE
-    if p["twin"] == "disturbed":
-        ended = run.run(program, scene, place, limit, more=("--set", f"components.rock.young_modulus={p['young'] * (1 + faults.DISTURBED)!r} Pa"))
-    elif p["twin"] == "processes":
-        ended = run.run(program, scene, place, 3 * limit, processes=2)
-    else:
-        tolerance = 0
-        part = run.run(program, scene, place, limit, more=("--set", f"time.end={faults.step(p) * (p['steps'] // 2)!r} s"))
-        if part.code != 0:
-            return [f"twin ({p['twin']}): exit code {part.code} in the first part: {' '.join(part.stderr.split())[:200]}"]
-        ended = run.run(program, scene, place, limit, more=("--restart",))
-    bad = check_end.failures(ended)
-    if not bad and ended.code != 0:
-        bad = [f"exit code {ended.code}: {' '.join(ended.stderr.split())[:200]}"]
+    place = folder / "twin"
+    disturbed = f"components.rock.young_modulus={p['young'] * (1 + faults.DISTURBED)!r} Pa"
+    bad = twins.failures(program, scene, place, limit, p["twin"], disturbed, faults.step(p) * (p["steps"] // 2))
     if not bad:
-        bad = differences(p, written.instants(folder / "results"), written.instants(place), tolerance)
+        bad = differences(p, written.instants(folder / "results"), written.instants(place), twins.tolerance(p["twin"], TOLERANCE))
     return [f"twin ({p['twin']}): {text}" for text in bad]

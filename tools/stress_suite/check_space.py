@@ -14,7 +14,7 @@ import re
 
 import numpy as np
 
-from . import check_end, check_pressure, run, space, written
+from . import check_pressure, space, twins, written
 
 PRECISION = 1e-8
 LAST_DIGITS = 1e-13
@@ -205,21 +205,10 @@ def differences(one, other, tolerance=TOLERANCE):
 
 def twin(program, p, scene, folder, limit):
     """Runs the scene's twin, and compares it with history.csv of the run in folder/results."""
-    alone, place = written.history(folder / "results"), folder / "twin"
-    tolerance = TOLERANCE
-    if p["twin"] == "disturbed":
-        ended = run.run(program, scene, place, limit, more=("--set", f"materials.viscosity={p['viscosity'] * (1 + space.DISTURBED)!r} Pa*s"))
-    elif p["twin"] == "processes":
-        ended = run.run(program, scene, place, 3 * limit, processes=2)
-    else:
-        tolerance = 0
-        part = run.run(program, scene, place, limit, more=("--set", f"time.end={p['step'] * (p['steps'] // 2)!r} s"))
-        if part.code != 0:
-            return [f"twin ({p['twin']}): exit code {part.code} in the first part: {' '.join(part.stderr.split())[:200]}"]
-        ended = run.run(program, scene, place, limit, more=("--restart",))
-    bad = check_end.failures(ended)
-    if not bad and ended.code != 0:
-        bad = [f"exit code {ended.code}: {' '.join(ended.stderr.split())[:200]}"]
+    alone = written.history(folder / "results")
+    place = folder / "twin"
+    disturbed = f"materials.viscosity={p['viscosity'] * (1 + space.DISTURBED)!r} Pa*s"
+    bad = twins.failures(program, scene, place, limit, p["twin"], disturbed, p["step"] * (p["steps"] // 2))
     if not bad:
-        bad = differences(alone, written.history(place), tolerance)
+        bad = differences(alone, written.history(place), twins.tolerance(p["twin"], TOLERANCE))
     return [f"twin ({p['twin']}): {text}" for text in bad]

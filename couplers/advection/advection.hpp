@@ -1,0 +1,103 @@
+// heat_advection, tracer_advection: flowing fluid carries heat, or a tracer, through the matrix, along fractures and
+// through their walls.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "components/capabilities/carried.hpp"
+#include "components/capabilities/fluid_fluxes.hpp"
+#include "components/capabilities/matrix_fluid.hpp"
+#include "couplers/advection/fluid_contents.hpp"
+#include "couplers/advection/held_flow.hpp"
+#include "couplers/advection/options.hpp"
+#include "couplers/advection/streams.hpp"
+#include "couplers/advection/well_mixture.hpp"
+#include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/keeps_state.hpp"
+#include "framework/assembly/keeps_totals.hpp"
+#include "framework/scene/registry.hpp"
+
+namespace sprekk::couplers {
+
+/// Adds to the balance of each cell what streams of fluid carry (Stream). With the fluid m that has entered the cell
+/// since the start (m^2), by the same streams, it stores c (m T − m_old T_old), and what enters is c dt q T of where it
+/// comes from: T is the temperature and c the heat capacity of the fluid, or T the concentration of a tracer and c one.
+/// Together with m = m_old + dt (sum of q) this is
+///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)),
+/// so that a uniform value stays uniform whatever the fluxes are, and nothing is lost or made: the amount is conserved
+/// in each schedule, also where the streams are those of a flow that is solved before or after. What has entered by the
+/// start of the step decays at the rate of the cell, c dt r m_old T: a uniform value stays uniform then, too.
+class Advection : public Coupler, public KeepsState, public FollowsMesh, public KeepsTotals, public CountsAmounts {
+ public:
+  Advection(const CouplerContext& context, const Carried& carried, const AdvectionOptions& options,
+            MatrixCarried* in_rock, FractureCarried* in_fractures);
+  /// What is carried through the walls in a step is the same for both sides.
+  std::vector<Dependence> dependences() const override;
+  void evaluate_data(const StepTime& step) override;
+  void begin_step(const StepTime&) override {}
+  void assemble(Assembly& assembly, const StepTime& step) const override;
+  void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
+  void carry_over(const Part& before, const MeshChange&) override {
+    flow_->carry_over(*dynamic_cast<const Advection&>(before).flow_);
+  }
+  void accepted() override { flow_->accepted(); }
+  void rewound() override { flow_->rewound(); }
+  void save(std::map<std::string, Vector>& state) const override { flow_->save(state); }
+  void restore(const std::map<std::string, Vector>& state) override { flow_->restore(state); }
+  void begin_totals() override;
+  /// The capacity of cells is that with the fluid that they have in the settled state.
+  void count_amounts_from_here(const SettledFields& settled) override;
+  void balance(std::map<std::string, Balance>& balances) const override;
+  /// The value of the fluid that leaves at each named place of the flow, or of that which enters.
+  void report(std::vector<Quantity>& quantities) const override;
+  void note_input(Notes& notes) const override;
+  void note_step(Notes& notes, const StepTime&) const override;
+  std::vector<double> switch_times() const override;
+
+ private:
+  /// Gives dispersion, where there is any, by the flow as it was last solved.
+  void disperse(bool in_rock, bool in_fractures);
+  StreamSources sources() const;
+  template <class Medium>
+  FluidContents contents(const CouplerContext& context, Medium& medium, Location location, const char* where) const {
+    return {context, carried_, medium.value(), location, where, options_.per_volume, medium.decay()};
+  }
+  /// Looks for fracture cells that hold what is carried in another thickness than their fluid.
+  void compare_apertures(const CouplerContext& context);
+  void find_wells(const CouplerContext& context);
+  /// Of what comes into wells from outside.
+  std::vector<std::optional<double>> injected_by_wells() const;
+  /// Throws DataError for a value of a place that the flow does not have.
+  void check_names() const;
+  /// Of the fluid that a stream brings, or of the cell that it leaves.
+  double value_of(const FluidContents& place, const Stream& stream, const Mixtures& wells) const;
+  /// Adds the balance of all cells of a place.
+  void add(Assembly& assembly, const FluidContents& place, const std::vector<Stream>& streams, const Mixtures& wells,
+           const StepTime& step) const;
+  /// Counts the fluid, and what it carries, of a solve.
+  void count(FluidContents& place, const std::vector<Stream>& streams, const Mixtures& wells, const StepTime& step);
+
+  const Mesh& mesh_;
+  const Carried& carried_;
+  AdvectionOptions options_;
+  Origin origin_;
+  MatrixCarried* in_rock_;
+  FractureCarried* in_fractures_;
+  MatrixFluxes* matrix_ = nullptr;
+  FractureFluxes* fracture_ = nullptr;
+  MatrixFluid* flow_in_rock_ = nullptr;
+  MatrixWalls* walls_ = nullptr;
+  ValuesOfWells wells_;
+  std::string other_aperture_;    ///< a note, or ""
+  std::vector<Vector> at_start_;  ///< values of the cells that fluid reaches
+  FluidContents rock_, fractures_;
+  std::optional<HeldFlow> flow_;
+  std::vector<std::pair<std::string, double>> injected_;  ///< values in this step
+  bool disperses_late_ = false;  ///< whether the last solve had a flow with which dispersion could not go
+};
+
+}  // namespace sprekk::couplers

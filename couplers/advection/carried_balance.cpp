@@ -1,0 +1,119 @@
+// The balance of what streams carry.
+#include "couplers/advection/advection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "framework/assembly/balance_rows.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
+
+namespace sprekk::couplers {
+
+double Advection::value_of(const FluidContents& place, const Stream& stream, const Mixtures& wells) const {
+  const double own = place.value->now()[stream.cell];
+  if (stream.rate <= 0) return own;
+  switch (stream.from) {
+    case Stream::From::given:
+      return stream.value;
+    case Stream::From::well:
+      return wells[stream.index]->value;
+    case Stream::From::rock_cell:
+      return rock_.value->now()[stream.index];
+    case Stream::From::fracture_cell:
+      return fractures_.value->now()[stream.index];
+    case Stream::From::own:
+      break;
+  }
+  return own;
+}
+
+void Advection::add(Assembly& assembly, const FluidContents& place, const std::vector<Stream>& streams,
+                    const Mixtures& wells, const StepTime& step) const {
+  const Field& unknown = *place.value;
+  const double scale = options_.per_volume * step.dt;
+  const Vector capacity = place.capacity_at_start();
+  Vector carried = Vector::Zero(unknown.size()), through_sides = carried;
+  double largest = 0, largest_rate = 0, largest_difference = 0;
+  std::vector<Triplet> own, of_rock, of_fractures;
+  std::array<std::vector<Triplet>, 4> by_flux;  // by Stream::Flux
+  for (const Stream& stream : streams) {
+    SPREKK_ASSERT(std::isfinite(stream.rate), stream.cell, stream.rate);
+    if (stream.rate <= 0 || stream.from == Stream::From::own) continue;
+    const double difference = unknown.now()[stream.cell] - value_of(place, stream, wells);
+    const double amount = scale * stream.rate * difference;
+    carried[stream.cell] += amount;
+    if (stream.is_outside) through_sides[stream.cell] += std::abs(amount);
+    largest = std::max(largest, std::abs(amount));
+    largest_rate = std::max(largest_rate, stream.rate);
+    if (stream.flux == Stream::Flux::face || stream.flux == Stream::Flux::wall)
+      largest_difference = std::max(largest_difference, std::abs(difference));
+    own.emplace_back(stream.cell, stream.cell, scale * stream.rate);
+    if (stream.from == Stream::From::rock_cell) of_rock.emplace_back(stream.cell, stream.index, -scale * stream.rate);
+    if (stream.from == Stream::From::fracture_cell)
+      of_fractures.emplace_back(stream.cell, stream.index, -scale * stream.rate);
+    if (stream.from == Stream::From::well) {
+      const WellMixture& well = *wells[stream.index];
+      const double amount_by_value = -scale * stream.rate;
+      for (const auto& [cell, value] : well.by_rock) of_rock.emplace_back(stream.cell, cell, amount_by_value * value);
+      for (const auto& [cell, value] : well.by_fractures)
+        of_fractures.emplace_back(stream.cell, cell, amount_by_value * value);
+      for (const auto& [place_of_well, value] : well.by_rate)
+        by_flux[static_cast<int>(Stream::Flux::well)].emplace_back(stream.cell, place_of_well, amount_by_value * value);
+    }
+    if (stream.flux != Stream::Flux::none)
+      by_flux[static_cast<int>(stream.flux)].emplace_back(stream.cell, stream.flux_index,
+                                                          scale * stream.by_flux * difference);
+    for (const auto& [ridge, by_flux_there] : stream.by_ridges)
+      by_flux[static_cast<int>(Stream::Flux::ridge)].emplace_back(stream.cell, ridge,
+                                                                  scale * by_flux_there * difference);
+  }
+  assembly.add(unknown, capacity.cwiseProduct(unknown.now() - unknown.accepted()));
+  assembly.add(unknown, carried);
+  const Vector decaying = place.decay.size() > 0 ? Vector(step.dt * place.decay.cwiseProduct(capacity)) : Vector();
+  if (decaying.size() > 0) BalanceRows(assembly, unknown).supply(-decaying.cwiseProduct(unknown.now()));
+  assembly.compare_with(unknown, largest);
+  assembly.compare_round_off(unknown, scale * largest_rate * unknown.now().lpNorm<Eigen::Infinity>());
+  if (largest_difference > 0)  // fluxes through faces and walls are differences of larger numbers
+    assembly.compare_round_off(unknown, scale * largest_difference * matrix_->round_off_base_of_fluxes());
+  BalanceRows(assembly, unknown).add_throughput(through_sides);
+  if (!assembly.wants_derivatives()) return;
+  const auto block = [&](const std::vector<Triplet>& entries, int columns) {
+    SparseMatrix matrix(unknown.size(), columns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  };
+  assembly.diagonal(unknown, unknown, capacity);
+  if (decaying.size() > 0) assembly.diagonal(unknown, unknown, decaying);
+  std::vector<Triplet>& same = place.location == Location::cell ? of_rock : of_fractures;
+  same.insert(same.end(), own.begin(), own.end());
+  for (const auto& [other, entries] : {std::pair{&rock_, &of_rock}, std::pair{&fractures_, &of_fractures}})
+    if (other->value && !entries->empty())
+      assembly.derivative(unknown, *other->value, block(*entries, other->value->size()));
+  const auto entries_of = [&](Stream::Flux flux) -> const std::vector<Triplet>& {
+    return by_flux[static_cast<int>(flux)];
+  };
+  if (const auto& entries = entries_of(Stream::Flux::face); !entries.empty()) {
+    const SparseMatrix of_faces = block(entries, mesh_.face_count());
+    for (const MatrixFluxes::Derivative& derivative : matrix_->face_flux_derivatives())
+      if (assembly.has_row(*derivative.field))
+        assembly.derivative(unknown, *derivative.field, SparseMatrix(of_faces * *derivative.matrix));
+  }
+  if (const auto& entries = entries_of(Stream::Flux::wall); !entries.empty())
+    assembly.derivative(unknown, walls_->wall_flux(), block(entries, mesh_.wall_count()));
+  if (const auto& entries = entries_of(Stream::Flux::ridge); !entries.empty())
+    assembly.derivative(unknown, fracture_->flux(), block(entries, fracture_->flux().size()));
+  if (const auto& entries = entries_of(Stream::Flux::well); !entries.empty())
+    assembly.derivative(unknown, wells_.wells->rate(), block(entries, wells_.wells->rate().size()));
+}
+
+void Advection::count(FluidContents& place, const std::vector<Stream>& streams, const Mixtures& wells,
+                      const StepTime& step) {
+  std::vector<double> values;
+  for (const Stream& stream : streams) values.push_back(value_of(place, stream, wells));
+  const Vector& capacity = &place == &rock_ ? in_rock_->capacity() : in_fractures_->capacity();
+  place.count(streams, values, capacity, matrix_ ? matrix_->round_off_base_of_fluxes() : 0, step.dt);
+}
+
+}  // namespace sprekk::couplers
