@@ -243,6 +243,23 @@ class Tracer(SpaceRuns):
                     for values in concentrations(self.run_text(flowing(dimension, schedule=schedule))):
                         self.assertLess(np.abs(values - 2).max(), 2e-11)
 
+    def test_it_stays_where_sides_and_ends_of_fractures_leak(self):
+        """Reference: 2 kg/m^3, and a balance that closes; where fluid comes through a side that leaks, it has the concentration of that side."""
+        for dimension in (2, 3):
+            for schedule in ("[{solve: [pore, conduit, salt, water]}]", BOTH):
+                with self.subTest(schedule, dimension=dimension):
+                    scene = flowing(dimension, schedule=schedule)
+                    for given, leaking in (("left: {pressure: 20 kPa}", "left: {outer_pressure: 20 kPa, conductance: 1e-10 m/(Pa*s)}"),
+                                           ("top: {pressure: \"(5 + 10*x/m) kPa\"}", "top: {outer_pressure: \"(5 + 10*x/m) kPa\", only_out: true}"),
+                                           ("right: {pressure: 0 Pa}", "right: {outer_pressure: 0 Pa, conductance: 1e-6 m/(Pa*s)}")):
+                        self.assertIn(given, scene)
+                        scene = scene.replace(given, leaking)
+                    results = self.run_text(scene)
+                    for values in concentrations(results):
+                        self.assertLess(np.abs(values - 2).max(), 2e-11)
+                    self.assertLess(results["pore.left.outflow"].max(), 0)
+                    self.assertLess(np.abs(results["tracer_balance_error"]).max(), 1e-12 * np.abs(results["tracer_injected"]).max())
+
     def test_it_stays_where_a_fracture_opens_and_slips(self):
         """Reference: 2 kg/m^3."""
         settings = ("components.salt={type: matrix_transport/mpfa, diffusion: 1e-9 m^2/s, initial_concentration: 2 kg/m^3, boundary: {left: {concentration: 2 kg/m^3}}}",
