@@ -16,6 +16,7 @@
 #include "framework/picture/text_table.hpp"
 #include "framework/schemes/atlas_page.hpp"
 #include "framework/schemes/atlas_tables.hpp"
+#include "framework/schemes/factor_curves.hpp"
 #include "framework/schemes/pass_factor.hpp"
 #include "framework/schemes/scheme_result.hpp"
 #include "framework/study/run_state.hpp"
@@ -74,7 +75,7 @@ class Atlas {
   std::vector<Run> planned() const;
   fs::path write_study(const std::vector<Run>& runs) const;
   SchemeResult result(const Run& run) const;
-  void predict();
+  std::vector<std::optional<double>> predicted(const Settings& values) const;
   void write() const;
 
   const AtlasOptions& options_;
@@ -83,7 +84,6 @@ class Atlas {
   std::vector<Scheme> schemes_;
   std::vector<std::string> behind_;  // the scene's steps of growth, which follow those of a scheme
   std::vector<std::pair<std::string, std::vector<std::string>>> axes_;
-  std::vector<std::optional<double>> predicted_;
   std::vector<SchemeResult> results_;
   std::vector<AtlasMap> maps_;
 };
@@ -119,9 +119,8 @@ Atlas::Atlas(const AtlasOptions& options)
   if (options.only.empty()) return;
   const std::vector<Scheme> all = std::exchange(schemes_, {});
   for (const Scheme& scheme : all)
-    if (scheme.is_monolithic() || std::ranges::any_of(options.only, [&](const std::string& part) {
-          return scheme.name().find(part) != std::string::npos;
-        }))
+    if (scheme.is_monolithic() ||
+        std::ranges::any_of(options.only, [&](const std::string& text) { return scheme.is_called(text); }))
       schemes_.push_back(scheme);
   if (schemes_.size() > 1) return;
   std::vector<std::string> names;
@@ -247,26 +246,31 @@ SchemeResult Atlas::result(const Run& run) const {
   return result;
 }
 
-/// From the equations of the first step, where the monolithic scheme has ended it.
-void Atlas::predict() {
-  predicted_.assign(schemes_.size(), std::nullopt);
+/// The factor of a pass of each scheme without acceleration, from the equations of the first step, where the monolithic
+/// scheme has ended it. `values`: of the scene, beside its settings.
+std::vector<std::optional<double>> Atlas::predicted(const Settings& values) const {
+  std::vector<std::optional<double>> factors(schemes_.size());
   std::vector<Override> overrides = overrides_of(options_.settings);
+  for (const auto& [path, value] : values) overrides.push_back({path, value});
   overrides.push_back({"schedule", schemes_.front().schedule(options_.until, options_.at_most, {})});
   const fs::path first = options_.scene_files.front();
-  Model model(read_scene(load_scene(options_.scene_files, overrides),
-                         first.parent_path().empty() ? "." : first.parent_path().string(), first.stem().string()));
-  const TimeOptions& time = scene_.time;
-  const StepTime step{time.start, time.step, time.start + time.step};
-  if (!model.attempt(step).converged) return;
+  const Scene scene =
+      read_scene(load_scene(options_.scene_files, overrides),
+                 first.parent_path().empty() ? "." : first.parent_path().string(), first.stem().string());
+  Model model(scene);
+  const StepTime step{scene.time.start, scene.time.step, scene.time.start + scene.time.step};
+  if (!model.attempt(step).converged) return factors;
   PassFactor factor(model, step);
   for (std::size_t s = 0; s < schemes_.size(); ++s)
-    if (schemes_[s].acceleration.empty() && !schemes_[s].is_monolithic()) predicted_[s] = factor.of(schemes_[s]);
+    if (schemes_[s].acceleration.empty() && !schemes_[s].is_monolithic()) factors[s] = factor.of(schemes_[s]);
+  return factors;
 }
 
 void Atlas::write() const {
   write_atomically(folder_ / "schemes.csv", atlas_csv(results_, maps_));
   write_atomically(folder_ / "schemes.json", atlas_json(results_, maps_));
   write_atomically(folder_ / "schemes.html", atlas_page(scene_.name, results_, maps_));
+  if (!maps_.empty()) write_atomically(folder_ / "schemes.svg", factors_svg(maps_));
 }
 
 ExitCode Atlas::execute() {
@@ -278,11 +282,12 @@ ExitCode Atlas::execute() {
   sweep.quiet = options_.is_quiet;
   sweep.has_table = sweep.tells_failures = false;
   if (const ExitCode code = run_sweep(study, sweep); code == ExitCode::interrupted) return code;
-  predict();
+  std::map<Settings, std::vector<std::optional<double>>> predictions;
   for (const Run& run : runs) {
     SchemeResult found = result(run);
+    if (!predictions.contains(run.settings)) predictions[run.settings] = predicted(run.settings);
+    found.predicted = predictions[run.settings][run.scheme];
     if (run.settings.empty()) {
-      found.predicted = predicted_[run.scheme];
       results_.push_back(std::move(found));
       continue;
     }
@@ -292,7 +297,8 @@ ExitCode Atlas::execute() {
   }
   write();
   if (!options_.is_quiet)
-    std::cout << text_table(result_rows(results_)) << "page: " << (folder_ / "schemes.html").string() << "\n";
+    std::cout << text_table(result_rows(results_)) << (maps_.empty() ? "" : text_table(optimum_rows(maps_)))
+              << "page: " << (folder_ / "schemes.html").string() << "\n";
   if (results_.front().is_done) return ExitCode::done;
   std::cerr << "the monolithic scheme did not converge: " << results_.front().reason << "\n";
   return ExitCode::failed;

@@ -7,6 +7,7 @@
 
 #include "framework/report/html.hpp"
 #include "framework/schemes/atlas_tables.hpp"
+#include "framework/schemes/factor_curves.hpp"
 #include "framework/schemes/scheme_picture.hpp"
 
 namespace sprekk {
@@ -51,11 +52,20 @@ std::string pictures(const std::vector<SchemeResult>& results) {
 }
 
 std::string maps_of(const std::vector<AtlasMap>& maps) {
-  std::string text;
-  for (const AtlasMap& map : maps)
-    text += "<h3>" + escaped_markup(map.scheme) + "</h3>\n<figure>" + map_svg(map) + "</figure>\n";
-  return text.empty() ? ""
-                      : html_paragraph("Passes of all steps together; grey where a step does not converge.") + text;
+  if (maps.empty()) return "";
+  std::string text = html_table(optimum_rows(maps), 1) + "<div class=\"panels\">\n";
+  for (const Panel& panel : factor_panels(maps)) text += "<figure>" + svg(panel) + "</figure>\n";
+  text += "</div>\n" + html_paragraph(
+                           "Below: passes of all steps together, grey where a step does not converge, and "
+                           "factors of a pass.");
+  for (const AtlasMap& map : maps) {
+    text += "<h3>" + escaped_markup(map.results.front().scheme.whole_name()) + "</h3>\n<div class=\"panels\">\n";
+    for (const MapFigure& figure : map_figures())
+      if (std::ranges::any_of(map.results, [&](const SchemeResult& result) { return figure.of(result).has_value(); }))
+        text += "<figure>" + map_svg(map, figure) + "<figcaption>" + figure.name + "</figcaption></figure>\n";
+    text += "</div>\n";
+  }
+  return text;
 }
 
 }  // namespace

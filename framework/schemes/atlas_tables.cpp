@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "framework/schemes/factor_curves.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -31,6 +33,12 @@ Json json_of(const SchemeResult& result) {
           {"difference", number_or_null(result.difference)}};
 }
 
+/// The smallest factor of a map, and for which values; null where there is none, or all are alike.
+Json json_of(const AtlasMap& map, SchemeResult::Factor factor) {
+  const std::optional<Optimum> best = optimum(map, factor);
+  return best ? Json{{"factor", best->factor}, {"at", map.values_at(best->place)}} : Json(nullptr);
+}
+
 std::string csv_quoted(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -48,14 +56,6 @@ void add_csv(const SchemeResult& result, const std::vector<std::string>& values,
                       csv_quoted(at), result.is_done ? 1 : 0, result.total_passes(), result.processor,
                       csv_number(result.measured), csv_number(result.predicted), csv_number(result.difference),
                       csv_quoted(result.reason));
-}
-
-/// The values of the axes at the k-th result of a map.
-std::vector<std::string> values_at(const AtlasMap& map, std::size_t k) {
-  const std::size_t width = map.axes[0].second.size();
-  std::vector<std::string> values = {map.axes[0].first + "=" + map.axes[0].second[k % width]};
-  if (map.axes.size() > 1) values.push_back(map.axes[1].first + "=" + map.axes[1].second[k / width]);
-  return values;
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ std::string atlas_csv(const std::vector<SchemeResult>& results, const std::vecto
       "reason\n";
   for (const SchemeResult& result : results) add_csv(result, {}, text);
   for (const AtlasMap& map : maps)
-    for (std::size_t k = 0; k < map.results.size(); ++k) add_csv(map.results[k], values_at(map, k), text);
+    for (std::size_t k = 0; k < map.results.size(); ++k) add_csv(map.results[k], map.values_at(k), text);
   return text;
 }
 
@@ -104,6 +104,8 @@ std::string atlas_json(const std::vector<SchemeResult>& results, const std::vect
     Json its = {{"scheme", map.scheme}, {"axes", Json::array()}, {"results", Json::array()}};
     for (const auto& [path, values] : map.axes) its["axes"].push_back({{"path", path}, {"values", values}});
     for (const SchemeResult& result : map.results) its["results"].push_back(json_of(result));
+    its["smallest_measured"] = json_of(map, &SchemeResult::measured);
+    its["smallest_predicted"] = json_of(map, &SchemeResult::predicted);
     whole["maps"].push_back(its);
   }
   return whole.dump(2) + "\n";

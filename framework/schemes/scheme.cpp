@@ -233,6 +233,22 @@ std::string Scheme::split() const {
   return text;
 }
 
+std::string Scheme::whole_name() const {
+  std::string text = Scheme{groups, is_jacobi, {}, ""}.split();
+  if (!stabilizations.empty()) text += ", " + all_stabilizations();
+  return acceleration.empty() ? text : text + ", " + acceleration;
+}
+
+bool Scheme::is_called(const std::string& text) const {
+  const auto alike = [](std::string name) {
+    for (std::size_t at = name.find("->"); at != std::string::npos; at = name.find("->")) name.replace(at, 2, "→");
+    std::ranges::replace(name, '_', ' ');
+    return name;
+  };
+  return std::ranges::any_of(std::vector{name(), split(), whole_name()},
+                             [&](const std::string& its) { return alike(its).find(alike(text)) != std::string::npos; });
+}
+
 std::string Scheme::schedule(double until, int at_most, const std::vector<std::string>& behind) const {
   std::string solves;
   for (std::size_t g = 0; g < groups.size(); ++g) {

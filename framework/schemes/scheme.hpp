@@ -24,6 +24,9 @@ struct Scheme {
   std::string all_stabilizations() const;              ///< joined by commas; "" for none
   std::string name() const;                            ///< as a name of a folder: "a_b-c_d=STABILIZATION=anderson_5"
   std::string split() const;                           ///< "a b (STABILIZATION) → c d"
+  std::string whole_name() const;                      ///< "a b → c d, STABILIZATION, anderson: 5"
+  /// Whether `text` stands in one of its names; "->" stands for "→", and spaces and '_' for each other.
+  bool is_called(const std::string& text) const;
   /// The value of `schedule:` as YAML on one line. `until`: of the coupled residual; `behind`: steps that follow.
   /// A step whose passes do not converge is refused.
   std::string schedule(double until, int at_most, const std::vector<std::string>& behind) const;

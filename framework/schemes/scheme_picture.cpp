@@ -77,13 +77,25 @@ std::string scheme_svg(const Scheme& scheme) {
   return opening(boxes.back().second + margin, below + margin, scheme.split()) + text + "</svg>\n";
 }
 
-std::string map_svg(const AtlasMap& map) {
+const std::vector<MapFigure>& map_figures() {
+  static const std::vector<MapFigure> figures = {
+      {"passes",
+       [](const SchemeResult& result) {
+         return result.is_done ? std::optional<double>(result.total_passes()) : std::nullopt;
+       },
+       0},
+      {"measured factor", [](const SchemeResult& result) { return result.measured; }, 1},
+      {"predicted factor", [](const SchemeResult& result) { return result.predicted; }, 1}};
+  return figures;
+}
+
+std::string map_svg(const AtlasMap& map, const MapFigure& figure) {
   constexpr double cell_width = 74, cell_height = 34, left = 150, above = 46;
   const std::vector<std::string> one = {""};
   const std::vector<std::string>&first = map.axes[0].second, &second = map.axes.size() > 1 ? map.axes[1].second : one;
-  int most = 1;
-  for (const SchemeResult& result : map.results)
-    if (result.is_done) most = std::max(most, result.total_passes());
+  double largest = figure.bright;
+  if (largest == 0)
+    for (const SchemeResult& result : map.results) largest = std::max(largest, figure.of(result).value_or(0));
   std::string text = text_at(left, 16, map.axes[0].first);
   if (map.axes.size() > 1) text += text_at(4, above - 8, map.axes[1].first);
   for (std::size_t i = 0; i < first.size(); ++i)
@@ -92,18 +104,16 @@ std::string map_svg(const AtlasMap& map) {
     const double y = above + cell_height * static_cast<double>(j);
     text += text_at(4, y + cell_height / 2 + 4, second[j]);
     for (std::size_t i = 0; i < first.size(); ++i) {
-      const SchemeResult& result = map.results[j * first.size() + i];
-      const double share = static_cast<double>(result.total_passes()) / most,
-                   x = left + cell_width * static_cast<double>(i);
+      const std::optional<double> value = figure.of(map.results[j * first.size() + i]);
+      const double share = value ? std::min(*value / largest, 1.0) : 1, x = left + cell_width * static_cast<double>(i);
       text += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\" fill=\"{}\" stroke=\"#fff\"/>\n",
-                          x, y, cell_width, cell_height, result.is_done ? viridis(share) : "#cccccc");
-      text += text_at(
-          x + cell_width / 2, y + cell_height / 2 + 4, result.is_done ? std::to_string(result.total_passes()) : "no",
-          result.is_done && share < 0.6 ? "fill=\"#fff\" text-anchor=\"middle\"" : "text-anchor=\"middle\"");
+                          x, y, cell_width, cell_height, value ? viridis(share) : "#cccccc");
+      text += text_at(x + cell_width / 2, y + cell_height / 2 + 4, value ? fmt::format("{:.4g}", *value) : "no",
+                      share < 0.6 ? "fill=\"#fff\" text-anchor=\"middle\"" : "text-anchor=\"middle\"");
     }
   }
   return opening(left + cell_width * static_cast<double>(first.size()) + margin,
-                 above + cell_height * static_cast<double>(second.size()) + margin, "passes of " + map.scheme) +
+                 above + cell_height * static_cast<double>(second.size()) + margin, figure.name + " of " + map.scheme) +
          text + "</svg>\n";
 }
 
