@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/capabilities/matrix_border.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/property.hpp"
@@ -55,6 +56,8 @@ class MatrixExchange : public Coupler {
       throw InputError(context.origin, "coupler " + name() + " passes nothing",
                        "no cell has both flows: it exchanges fluid within rock, not across the border of regions",
                        "let both live in the same regions, or take border_exchange");
+    for (MatrixFluid* flow : flows)
+      if (auto* border = dynamic_cast<MatrixBorder*>(flow)) border->share_cells();
     exchange_ = Property(options.exchange, cell_places(mesh_), context.start_time);
   }
 

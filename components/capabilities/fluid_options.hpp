@@ -4,6 +4,7 @@
 #include <string>
 
 #include "components/capabilities/usual_ranges.hpp"
+#include "framework/config/one_place.hpp"
 #include "framework/config/spec.hpp"
 
 namespace sprekk {
@@ -41,6 +42,14 @@ inline void declare_gravity(Spec& spec, VectorData& gravity) {
                .doc = "Acceleration of gravity.",
                .material = true,
                .fixed = "what is at rest under gravity is found once"});
+}
+
+/// The weight of fluid between two places has to be one, whichever way leads from one to the other.
+inline void check_gravity(const VectorData& gravity, const Node& node) {
+  const Node* given = node.find("gravity");
+  for (const Data& component : gravity.component)
+    require_one_place(component, "'gravity'", "the weight of fluid follows from one acceleration",
+                      given ? given->origin : node.origin);
 }
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// Capability of a flow in some regions of the rock: fluid may cross the border to the rock beside them.
+// Capability of a flow in the rock: fluid may pass to another flow, across the border of its regions or within cells.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,10 @@ class MatrixBorder {
   /// Fluxes through these faces are among MatrixFluxes::face_fluxes of both flows. Throws InputError where the flow
   /// cannot be open there, saying why.
   virtual void open_border(const Field& outflow, double sign, const std::vector<char>& faces) = 0;
-  virtual bool has_open_border() const = 0;
+  /// Says that fluid passes to another flow within cells. To be called in the constructor of a coupler.
+  virtual void share_cells() = 0;
+  /// Whether fluid passes to another flow: what it carries would be left behind.
+  virtual bool shares_fluid() const = 0;
   /// The pressure at the centre of each face of the border that `outflow` crosses, Pa; rows of other faces are empty.
   /// To be used after Part::begin_step of the flow.
   virtual const LinearExpression& border_pressure(const Field& outflow) const = 0;

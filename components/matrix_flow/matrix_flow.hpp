@@ -150,7 +150,8 @@ class MatrixFlow : public Component,
   bool is_permeable() const override { return !is_sealed_; }
   const LinearExpression& wall_pressure() const override;
   void open_border(const Field& outflow, double sign, const std::vector<char>& faces) override;
-  bool has_open_border() const override { return !open_faces_.empty(); }
+  void share_cells() override { shares_cells_ = true; }
+  bool shares_fluid() const override { return shares_cells_ || has_open_border(); }
   const LinearExpression& border_pressure(const Field& outflow) const override;
   bool has_gravity() const override { return !options_.gravity.is_zero(); }
   double weight_between(const Point& from, const Point& to) const override {
@@ -195,6 +196,7 @@ class MatrixFlow : public Component,
   double gravity_potential(const Point& x) const;  ///< rho g·x, Pa
   void find_regions();
   void check_sides() const;
+  bool has_open_border() const { return !open_faces_.empty(); }
   std::vector<const Data*> properties() const;
   /// Updates mobility and wells after properties have changed.
   void use_properties();
@@ -264,6 +266,7 @@ class MatrixFlow : public Component,
   std::vector<OpenBorder> borders_;          ///< leaky sides count as one
   std::unique_ptr<LeakySides> leaky_sides_;  ///< nullptr without
   BorderTraces border_traces_;
+  bool shares_cells_ = false;
   std::vector<char> open_faces_;  ///< of all of them, one flag a face; empty for none
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, symmetric_components> permeability_;  ///< as symmetric_axes has them

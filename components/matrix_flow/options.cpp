@@ -73,6 +73,8 @@ Spec well_spec(Well& well) {
     if (well.at ? !well.points.empty() : well.points.size() < 2)
       throw InputError(node.origin, "'" + node.path + "' does not say where the well is",
                        "it is at one place, 'at', or along a line of two 'points' or more", "give one of them");
+    require_one_place(well.rate, "the rate of '" + node.path + "'", "it is that of the whole well",
+                      node.find("rate")->origin);
   });
   return inner;
 }
@@ -144,6 +146,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                       {.doc = "Point sources by name."});
   spec.check([this](const Node& node) {
     if (const Node* given = node.find("regions")) regions_origin = given->origin;
+    check_gravity(gravity, node);
     for (const char* key : {"porosity", "fluid_compressibility"})
       if (storage && node.find(key)) without_effect[key] = "'storage' is given as a whole";
     if (!storage && (!porosity || !fluid_compressibility))

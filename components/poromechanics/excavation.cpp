@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/config/input_error.hpp"
+#include "framework/config/one_place.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::poromechanics {
@@ -36,9 +37,8 @@ Excavation::Excavation(const ExcavatedRegions& regions, const Mesh& mesh) {
   for (const auto& [name, region] : regions) {
     const auto found = std::ranges::find(mesh.region_names, name);
     if (found == mesh.region_names.end()) throw unknown_name(region.origin, "region", name, mesh.region_names);
-    if (region.support.depends_on_space())
-      throw InputError(region.origin, "the support of region '" + name + "' varies in space",
-                       "it is one part of its stress, at one time", "make regions of the pieces, each with a support");
+    require_one_place(region.support, "the support of region '" + name + "'", "it is one part of its stress",
+                      region.origin);
     place[found - mesh.region_names.begin()] = static_cast<int>(regions_.size());
     regions_.push_back(&region);
   }

@@ -1,7 +1,10 @@
 #include "components/wells/options.hpp"
-#include "framework/field/units_of_amounts.hpp"
 
+#include <fmt/format.h>
 #include <utility>
+
+#include "framework/config/one_place.hpp"
+#include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::wells {
 namespace {
@@ -41,6 +44,11 @@ void check_well(const WellOptions& well, const Node& node) {
     throw InputError(node.origin, "'pressure' contradicts the rate and the limits of the well",
                      "the pressure is given, whatever the rate",
                      "write 'rate' with 'highest_pressure' or 'lowest_pressure' for a well that does what binds first");
+  for (const auto& [name, data] :
+       {std::pair("rate", &well.rate), std::pair("pressure", &well.pressure),
+        std::pair("highest_pressure", &well.highest_pressure), std::pair("lowest_pressure", &well.lowest_pressure)})
+    if (*data)
+      require_one_place(**data, fmt::format("'{}'", name), "it is that of the whole well", node.find(name)->origin);
   if (well.rate && well.rate->is_constant()) {
     const double rate = well.rate->at({});
     if (rate > 0 && well.lowest_pressure && !well.highest_pressure)

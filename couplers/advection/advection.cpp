@@ -18,10 +18,10 @@ std::vector<Dependence> Advection::dependences() const {
 
 void Advection::evaluate_data(const StepTime& step) {
   const auto* border = dynamic_cast<const MatrixBorder*>(matrix_);
-  if (border && border->has_open_border())
-    throw DataError(InputError(origin_, "the fluid of coupler " + name() + " crosses the border to another flow",
-                               carried_.quantity + " is carried by one flow, which has all the fluid of the rock",
-                               "take one flow whose parameters differ by region")
+  if (border && border->shares_fluid())
+    throw DataError(InputError(origin_, "the fluid of coupler " + name() + " passes to another flow",
+                               "its " + carried_.quantity + " would be left behind, since one flow carries it",
+                               "take one flow whose parameters differ by region, or remove the coupler")
                         .what());
   injected_.clear();
   for (const auto& [name, given] : options_.injected)

@@ -9,6 +9,7 @@
 #include "components/capabilities/cold.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "framework/assembly/state_fields.hpp"
+#include "framework/config/one_place.hpp"
 #include "framework/mesh/geometry.hpp"
 
 namespace sprekk::couplers {
@@ -24,6 +25,9 @@ Advection::Advection(const CouplerContext& context, const Carried& carried, cons
       origin_(context.origin),
       in_rock_(in_rock),
       in_fractures_(in_fractures) {
+  for (const auto& [place, injected] : options_.injected)
+    require_one_place(injected.value, "the " + carried_.value + " of '" + place + "'",
+                      "what enters at a place of this name has one value", injected.origin);
   matrix_ = context.find<MatrixFluxes>();
   fracture_ = context.find<FractureFluxes>();
   walls_ = context.find<MatrixWalls>();
@@ -120,6 +124,13 @@ void Advection::check_names() const {
     for (const FluidReservoir& reservoir : fracture_->fluid_reservoirs()) known.push_back(reservoir.name);
   }
   if (wells_.wells) known.insert(known.end(), wells_.wells->names().begin(), wells_.wells->names().end());
+  for (const std::string& each : known)
+    if (std::ranges::count(known, each) > 1)
+      throw DataError(InputError(origin_,
+                                 "two places at which the flow lets fluid in or out have the name '" + each + "'",
+                                 "coupler " + name() + " tells the " + carried_.value + " of each by its name",
+                                 "give one of them another name")
+                          .what());
   for (const auto& [name, given] : options_.injected)
     if (!std::ranges::count(known, name))
       throw DataError(unknown_name(given.origin, "place where the flow lets fluid in", name, known).what());

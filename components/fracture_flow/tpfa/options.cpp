@@ -210,6 +210,7 @@ void Options::read_transmissivity(const Node& node) {
 }
 
 void Options::check(const Node& node) {
+  check_gravity(gravity, node);
   read_transmissivity(node);
   if (const Origin* through = crossings.find_through(); through && !is_constant() && !has_given_walls())
     throw InputError(*through, "nothing fills the crossing in which a fracture is to go through",
