@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "components/capabilities/one_place.hpp"
 #include "components/capabilities/usual_ranges.hpp"
-#include "framework/config/one_place.hpp"
 #include "framework/config/spec.hpp"
 
 namespace sprekk {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "components/capabilities/one_place.hpp"
 #include "framework/config/input_error.hpp"
-#include "framework/config/one_place.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::poromechanics {

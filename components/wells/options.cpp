@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "framework/config/one_place.hpp"
+#include "components/capabilities/one_place.hpp"
 #include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::wells {

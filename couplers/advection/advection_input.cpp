@@ -8,8 +8,8 @@
 
 #include "components/capabilities/cold.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
+#include "components/capabilities/one_place.hpp"
 #include "framework/assembly/state_fields.hpp"
-#include "framework/config/one_place.hpp"
 #include "framework/mesh/geometry.hpp"
 
 namespace sprekk::couplers {
