@@ -32,6 +32,7 @@ class EarlyEnd {
   StopCondition stop_;
   std::optional<double> steady_since_;
   bool has_stopped_ = false;
+  std::string stop_text_;
 };
 
 }  // namespace sprekk

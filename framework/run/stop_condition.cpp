@@ -8,42 +8,77 @@
 
 namespace sprekk {
 
-StopCondition::StopCondition(const Scene& scene, const std::vector<Quantity>& quantities) {
-  if (!scene.time.has_stop) return;
-  const TimeOptions::Stop& stop = scene.time.stop;
-  std::vector<std::string> names;
-  for (const Quantity& quantity : quantities) {
-    names.push_back(quantity.name);
-    if (quantity.name != stop.of) continue;
-    name_ = stop.of;
-    falls_ = stop.falls_to.has_value();
-    limit_ = falls_ ? *stop.falls_to : *stop.reaches;
-    unit_ = quantity.unit;
-    value_ = parse_quantity(limit_, quantity.unit, stop.origin, falls_ ? "falls_to" : "reaches");
-    start_ = quantity.value;
+namespace {
+
+const Quantity* find(const std::vector<Quantity>& quantities, const std::string& name) {
+  const auto found = std::ranges::find(quantities, name, &Quantity::name);
+  return found == quantities.end() ? nullptr : &*found;
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string whole;
+  for (const std::string& text : texts) whole += (whole.empty() ? "" : ", and ") + text;
+  return whole;
+}
+
+}  // namespace
+
+StopCondition::Term StopCondition::read(const TimeOptions::StopTerm& given, const std::vector<Quantity>& quantities) {
+  const Quantity* quantity = find(quantities, *given.of);
+  if (!quantity) {
+    std::vector<std::string> names;
+    for (const Quantity& each : quantities) names.push_back(each.name);
+    throw unknown_name(given.origin, "quantity of history.csv", *given.of, names);
   }
-  if (name_.empty()) throw unknown_name(stop.origin, "quantity of history.csv", stop.of, names);
+  const bool falls = given.falls_to.has_value();
+  const std::string limit = falls ? *given.falls_to : *given.reaches;
+  return {*given.of,       falls, parse_quantity(limit, quantity->unit, given.origin, falls ? "falls_to" : "reaches"),
+          quantity->value, limit, quantity->unit};
+}
+
+StopCondition::StopCondition(const Scene& scene, const std::vector<Quantity>& quantities)
+    : needs_all_(!scene.time.stop.all.empty()) {
+  if (!scene.time.has_stop) return;
+  for (const TimeOptions::StopTerm& given : scene.time.stop.terms()) terms_.push_back(read(given, quantities));
   was_reached_at_start_ = is_reached(quantities);
 }
 
-bool StopCondition::is_reached(const std::vector<Quantity>& quantities) const {
-  return !name_.empty() && std::any_of(quantities.begin(), quantities.end(), [this](const Quantity& quantity) {
-    return quantity.name == name_ && (falls_ ? quantity.value <= value_ : quantity.value >= value_);
-  });
+bool StopCondition::Term::holds(const std::vector<Quantity>& quantities) const {
+  const Quantity* quantity = find(quantities, name);
+  return quantity && (falls ? quantity->value <= value : quantity->value >= value);
 }
 
-std::string StopCondition::text() const { return name_ + (falls_ ? " has fallen to " : " has reached ") + limit_; }
+bool StopCondition::is_reached(const std::vector<Quantity>& quantities) const {
+  const auto holds = [&](const Term& term) { return term.holds(quantities); };
+  if (terms_.empty()) return false;
+  return needs_all_ ? std::ranges::all_of(terms_, holds) : std::ranges::any_of(terms_, holds);
+}
+
+std::string StopCondition::text(const std::vector<Quantity>& quantities) const {
+  std::vector<std::string> texts;
+  for (const Term& term : terms_)
+    if (term.holds(quantities))
+      texts.push_back(term.name + (term.falls ? " has fallen to " : " has reached ") + term.limit);
+  return joined(texts);
+}
 
 std::string StopCondition::start_text() const {
-  return fmt::format("{} is {} at the start", name_, quantity_text(start_, unit_));
+  std::vector<std::string> texts;
+  for (const Term& term : terms_)
+    texts.push_back(fmt::format("{} is {} at the start", term.name, quantity_text(term.start, term.unit)));
+  return joined(texts);
 }
 
 std::string StopCondition::missed_text(const std::vector<Quantity>& quantities) const {
-  const std::string verb = falls_ ? "fallen to " : "reached ";
-  for (const Quantity& quantity : quantities)
-    if (quantity.name == name_)
-      return name_ + " is " + quantity_text(quantity.value, unit_) + ", and has not " + verb + limit_;
-  return name_ + " has not " + verb + limit_;
+  std::vector<std::string> texts;
+  for (const Term& term : terms_) {
+    if (term.holds(quantities)) continue;
+    const std::string missed = "has not " + std::string(term.falls ? "fallen to " : "reached ") + term.limit;
+    const Quantity* quantity = find(quantities, term.name);
+    texts.push_back(term.name + " " +
+                    (quantity ? "is " + quantity_text(quantity->value, term.unit) + ", and " + missed : missed));
+  }
+  return joined(texts);
 }
 
 }  // namespace sprekk

@@ -55,6 +55,52 @@ struct Restoring {
 
 }  // namespace
 
+void TimeOptions::StopTerm::declare(Spec& spec) {
+  spec.text("of", of, {.doc = "A column of history.csv without its unit."});
+  spec.text("reaches", reaches,
+            {.doc = "The value, with its unit, that ends the run: the quantity has it or a larger one."});
+  spec.text("falls_to", falls_to,
+            {.doc = "The value, with its unit, that ends the run: the quantity has it or a smaller one."});
+}
+
+void TimeOptions::StopTerm::check(const Node& node) {
+  origin = node.origin;
+  if (of && reaches.has_value() != falls_to.has_value()) return;
+  throw InputError(node.origin, "'stop' is not complete",
+                   "a run ends where a quantity 'of' history.csv 'reaches' or 'falls_to' a value",
+                   of ? "give one of the two" : "add 'of:', or lists of such terms, 'any' or 'all'");
+}
+
+Spec TimeOptions::Stop::spec() {
+  Spec spec("stop", "Ends the run early.");
+  only.declare(spec);
+  static StopTerm example;
+  const auto term = [](StopTerm& of_run) {
+    Spec inner("term", "A quantity that has reached a value.");
+    of_run.declare(inner);
+    inner.check([&of_run](const Node& node) { of_run.check(node); });
+    return inner;
+  };
+  const auto list = [&](const char* name, std::list<StopTerm>& terms, const char* doc) {
+    spec.list_of_sections(name, term(example),
+                          [&terms, term](int, const Origin&) {
+                            terms.emplace_back();
+                            return term(terms.back());
+                          },
+                          {.doc = doc});
+  };
+  list("any", any, "Terms as above, of which one has to hold.");
+  list("all", all, "Terms as above, which all have to hold at the end of one step.");
+  spec.check([this](const Node& node) {
+    const bool has_only = only.of || only.reaches || only.falls_to;
+    if (has_only + !any.empty() + !all.empty() > 1)
+      throw InputError(node.origin, "'stop' says twice when the run ends", "it is one term, 'any' of several or 'all'",
+                       "write all terms into one list");
+    if (any.empty() && all.empty()) only.check(node);
+  });
+  return spec;
+}
+
 Spec TimeOptions::spec() {
   Spec spec("time", "From when to when, and in which steps.");
   spec.quantity("start", start, {.unit = "s", .doc = "Start of the run."});
@@ -79,25 +125,13 @@ Spec TimeOptions::spec() {
               "beyond them. Passes of an 'iterate' do not count: shorter steps need as many."});
   spec.section("adaptive", changing, {.doc = "Steps that follow the effort of the solver; else they are constant."},
                &adaptive);
-  Spec stopping("stop", "Ends the run early.");
-  stopping.text("of", stop.of, {.doc = "A column of history.csv without its unit.", .required = true});
-  stopping.text("reaches", stop.reaches,
-                {.doc = "The value, with its unit, that ends the run: the quantity has it or a larger one."});
-  stopping.text("falls_to", stop.falls_to,
-                {.doc = "The value, with its unit, that ends the run: the quantity has it or a smaller one."});
-  stopping.check([this](const Node& node) {
-    if (stop.reaches.has_value() != stop.falls_to.has_value()) return;
-    throw InputError(node.origin, "'stop' is not complete",
-                     "a run ends where a quantity 'reaches' or 'falls_to' a value", "give one of the two");
-  });
-  spec.section("stop", stopping, {.doc = "Ends the run after the step in which a quantity reaches a value."},
+  spec.section("stop", stop.spec(), {.doc = "Ends the run after the step in which a quantity reaches a value."},
                &has_stop);
   spec.quantity("stop_when_steady", stop_when_steady,
                 {.range = strictly_between(0, 1),
                  .doc = "Ends the run after the last jump of the data, once changes like those of the last step, up to "
                         "the end, would add up to less than this share of the largest value of every unknown."});
   spec.check([this](const Node& node) {
-    if (const Node* given = node.find("stop")) stop.origin = given->origin;
     if (const Node* given = node.find("scheme")) scheme_origin = given->origin;
     scheme = scheme_name == "sdirk2" ? TimeScheme::sdirk2 : TimeScheme::backward_euler;
     if (end <= start)

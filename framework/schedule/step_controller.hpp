@@ -1,6 +1,7 @@
 // The choice of the next time step.
 #pragma once
 
+#include <list>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,12 +25,21 @@ struct TimeOptions {
   bool adaptive = false;
   double largest = 0;               ///< s, of adaptive steps
   double grow = 1.5, shrink = 0.5;  ///< of adaptive steps, by ten days of configs/tutorial/first_scene.yaml
-  /// Ends the run before `end`, after the first step at whose end a column of history.csv has reached a value.
+  /// A column of history.csv that has reached a value.
+  struct StopTerm {
+    std::optional<std::string> of = {};        ///< the quantity, without its unit
+    std::optional<std::string> reaches = {};   ///< from below, with its unit
+    std::optional<std::string> falls_to = {};  ///< from above; one of the two is given
+    Origin origin = {};
+    void declare(Spec& spec);
+    void check(const Node& node);
+  };
+  /// Ends the run before `end`, after the first step at whose end its terms hold.
   struct Stop {
-    std::string of;                       ///< the quantity, without its unit
-    std::optional<std::string> reaches;   ///< from below, with its unit
-    std::optional<std::string> falls_to;  ///< from above; one of the two is given
-    Origin origin;
+    StopTerm only;                 ///< without `all` and `any`
+    std::list<StopTerm> all, any;  ///< which of them is given
+    Spec spec();
+    std::list<StopTerm> terms() const { return !all.empty() ? all : !any.empty() ? any : std::list{only}; }
   };
   Stop stop;
   bool has_stop = false;

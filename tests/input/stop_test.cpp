@@ -8,6 +8,7 @@ namespace sprekk::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(Stop, IsTheReasonOfTheEnd) {
   const Folder folder;
@@ -58,6 +59,26 @@ TEST(Stop, ThatIsNotReachedIsTold) {
   const Ended run = run_of("fractured.yaml", {"time.stop={of: fluid_injected, reaches: 1 m^2}"});
   EXPECT_EQ(run.record["exit"]["reason"], "done");
   EXPECT_THAT(run.note("time.stop")["text"].get<std::string>(), HasSubstr("has not reached 1 m^2"));
+}
+
+TEST(Stop, MayHaveSeveralTerms) {
+  // 0.6e-6 m^2 enter in each step.
+  const auto run = [](const std::string& terms) { return run_of("fractured.yaml", {"time.stop=" + terms}); };
+  const std::string first = "{of: fluid_injected, reaches: 1e-6 m^2}",
+                    second = "{of: fluid_injected, reaches: 2e-6 m^2}",
+                    never = "{of: fluid_injected, falls_to: -1 m^2}";
+  const Ended any = run("{any: [" + never + ", " + second + ", " + first + "]}");
+  EXPECT_EQ(any.record["counters"]["steps accepted"], 2);
+  EXPECT_EQ(any.record["exit"]["reason"], "stopped: fluid_injected has reached 1e-6 m^2");
+  const Ended all = run("{all: [" + first + ", " + second + "]}");
+  EXPECT_EQ(all.record["counters"]["steps accepted"], 4);
+  EXPECT_EQ(all.record["exit"]["reason"],
+            "stopped: fluid_injected has reached 1e-6 m^2, and fluid_injected has reached 2e-6 m^2");
+  const Ended missed = run("{all: [" + first + ", " + never + "]}");
+  EXPECT_EQ(missed.record["exit"]["reason"], "done");
+  const std::string told = missed.note("time.stop")["text"].get<std::string>();
+  EXPECT_THAT(told, HasSubstr("has not fallen to -1 m^2"));
+  EXPECT_THAT(told, Not(HasSubstr("has not reached 1e-6 m^2")));
 }
 
 }  // namespace
