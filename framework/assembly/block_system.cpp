@@ -212,14 +212,16 @@ const LinearSystem& BlockSystem::matrix(const Assembly& assembly) {
   SPREKK_EXPECT(assembly.wants_derivatives());
   const std::vector<Assembly::Block>& blocks = assembly.blocks();
   const bool same_pattern =
-      patterns_built_ > 0 &&
-      std::equal(known_.begin(), known_.end(), blocks.begin(), blocks.end(),
-                 [](const Known& known, const Assembly::Block& block) { return known.has_pattern_of(block); });
+      !parallel::any(patterns_built_ == 0 || !std::equal(known_.begin(), known_.end(), blocks.begin(), blocks.end(),
+                                                         [](const Known& known, const Assembly::Block& block) {
+                                                           return known.has_pattern_of(block);
+                                                         }));
   std::vector<char> stays(unknowns_.size(), false);
   if (same_pattern) {
     stays = known_rows(assembly);
-    const bool all_stay = std::all_of(stays.begin(), stays.end(), [](char stay) { return stay; });
-    if (all_stay && system_.number != 0) return sums_.with_sums(system_);
+    // The rest is collective, and rows may change on some processes only (of a side that lets fluid out there).
+    const bool one_changes = std::any_of(stays.begin(), stays.end(), [](char stay) { return !stay; });
+    if (!parallel::any(one_changes || system_.number == 0)) return sums_.with_sums(system_);
   } else {
     build_pattern(assembly);
     system_.pattern_number = new_system_number();

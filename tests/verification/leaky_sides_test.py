@@ -365,6 +365,35 @@ schedule: [{solve: [pore, heat]}]""")
             one = self.run_scene(scene, *settings) if settings else straight
             self.assertLess(self.largest_difference(self.run_scene(scene, *settings, processes=2), one, COLUMNS), 1e-8, settings)
 
+    @on_two_processes
+    def test_a_side_that_only_one_process_has(self):
+        """Its equations change on that process alone. Sources of heat press fluid out of one side, and leave through no other: what they expand."""
+        text = """
+name: one_side
+geometry: {box: {x: [0 m, 6 m], y: [0 m, 4 m]}, fractures: {a: {points: [[3 m, 1 m], [5 m, 1.7 m]]}}}
+mesh: {size: 0.7 m}
+materials: {viscosity: 1 mPa*s, fluid_compressibility: 0 1/Pa, fluid_expansion: 3e-4 1/K, porosity: 0.2, expansion: 1e-4 1/K, biot_coefficient: 1}
+components:
+  pore: {type: matrix_flow/tpfa, permeability: 1e-13 m^2, storage: 1e-10 1/Pa, boundary: {right: {outer_pressure: 2 kPa, only_out: true}}}
+  conduit: {type: fracture_flow/tpfa, initial_aperture: 0.1 mm}
+  heat: {type: matrix_heat/tpfa, conductivity: 2 W/(m*K), heat_capacity: 2e6 J/(m^3*K), source: "(100*x/m) W/m^3"}
+  water: {type: fracture_heat/tpfa, aperture: 0.1 mm, conductivity: 0.6 W/(m*K), heat_capacity: 2e6 J/(m^3*K)}
+couplers:
+  - {type: wall_exchange, between: [pore, conduit]}
+  - {type: heat_exchange, between: [heat, water]}
+  - {type: thermal_pressurization, between: [pore, conduit, heat, water]}
+output: {probes: {p: {of: pore.pressure, take: mean}}}
+schedule: [{solve: [pore, conduit, heat, water]}]
+time: {end: 4 h, step: 1 h}
+"""
+        # All that warms expands by 3e-4 1/K: 300 W/m^3 in the mean, 24 m^2, 2e6 J/(m^3 K).
+        expands = 3e-4 * 300 * 24 / 2e6 * 4 * 3600
+        for processes in (1, 2, 3):
+            run = self.run_text(text, processes=processes)
+            left, stored = run.history["fluid_outflow[m^2]"][-1], 1e-10 * 24 * run.history["p[Pa]"][-1]
+            self.assertLess(abs((left + stored) / expands - 1), 1e-8, processes)
+            self.assertGreater(run.history["p[Pa]"][-1], 2000)
+
     def test_a_settled_start(self):
         """Steady flow between leaky sides alone, by direct and iterative solvers: what flows in flows out, and nothing changes after."""
         scene = self.write(BOX, "box.yaml")
