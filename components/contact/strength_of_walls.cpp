@@ -27,6 +27,12 @@ void FrictionalContact::evaluate_formulas() {
                                              to_text(mesh_.fracture_cells[i].center)),
                                  "it is the opening that slip makes", "subtract its value at slip = 0")
                           .what());
+    if (dilation_[i] < 0)
+      throw DataError(InputError(origin_,
+                                 fmt::format("'dilation' falls with slip, by {:.6g} at slip = 0, at {}", -dilation_[i],
+                                             to_text(mesh_.fracture_cells[i].center)),
+                                 "walls that slide apart open", "give a formula that rises from 0, or none")
+                          .what());
   }
 }
 
