@@ -174,6 +174,8 @@ class FrictionalContact : public Component,
   /// The slip of the springs in the step, m, before friction acts; zero with Multiplier::last.
   TangentialVector elastic_slip(int cell) const;
   /// The opening by dilation, m, after slip of this size, and its derivative.
+  /// Throws DataError where a formula of closure is not 0 without pressure, or falls there.
+  void check_closure() const;
   double dilated(int cell, double slip) const;
   double dilation_at(int cell, double slip) const;
   double closure(int cell, double normal_traction) const;              ///< m

@@ -18,6 +18,7 @@ void FrictionalContact::evaluate_formulas() {
   const int count = mesh_.fracture_cell_count();
   // It scales the search for the state of walls; the answer does not depend on it.
   if (formulas_->friction()) friction_.set(Vector::Ones(count));
+  check_closure();
   if (!formulas_->dilation()) return;
   for (int i = 0; i < count; ++i) {
     dilation_[i] = dilation_at(i, 0);
@@ -33,6 +34,25 @@ void FrictionalContact::evaluate_formulas() {
                                              to_text(mesh_.fracture_cells[i].center)),
                                  "walls that slide apart open", "give a formula that rises from 0, or none")
                           .what());
+  }
+}
+
+void FrictionalContact::check_closure() const {
+  const StateFormula* formula = formulas_->closure();
+  for (int i = 0; formula && i < mesh_.fracture_cell_count(); ++i) {
+    std::array<double, 1> by;
+    const double without_pressure = formula->at(i, std::array{0.0}, by);
+    if (!is_on_fracture_cell(i) || (without_pressure == 0 && by[0] >= 0)) continue;
+    const std::string where = to_text(mesh_.fracture_cells[i].center);
+    const InputError error =
+        without_pressure != 0
+            ? InputError(origin_, fmt::format("'closure' is {:.6g} m without pressure, at {}", without_pressure, where),
+                         "the fracture has its initial aperture there", "subtract its value at sigma_n = 0")
+            : InputError(
+                  origin_,
+                  fmt::format("'closure' falls with pressure, by {:.6g} m/Pa without pressure, at {}", -by[0], where),
+                  "pressure closes walls", "give a formula that rises from 0");
+    throw DataError(error.what());
   }
 }
 

@@ -1,4 +1,6 @@
 // The three types of contact, which differ in what multiplies the gap and the slip (Multiplier), and their parameters.
+#include <fmt/format.h>
+
 #include "components/capabilities/usual_ranges.hpp"
 #include "components/contact/laws/formulas.hpp"
 #include "components/contact/options.hpp"
@@ -74,9 +76,17 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   spec.check([this](const Node& node) {
     if (const Node* given = node.find("fractures")) fractures_origin = given->origin;
     weakening.cohesion = cohesion.is_constant() ? cohesion.at({}) : 0;
-    if (dilation && (node.find("dilation_angle") || dilation_limit))
-      throw InputError(node.find("dilation")->origin, "'dilation' and 'dilation_angle' exclude each other",
-                       "each says how far slip opens the fracture", "remove one of them");
+    for (const char* other : {"dilation_angle", "dilation_limit"})
+      if (dilation && node.find(other))
+        throw InputError(node.find("dilation")->origin, fmt::format("'dilation' and '{}' exclude each other", other),
+                         "each says how far slip opens the fracture", "remove one of them");
+    if (dilation_limit && dilation_angle.is_zero())
+      throw InputError(node.find("dilation_limit")->origin, "'dilation_limit' has no effect",
+                       "slip opens nothing without a 'dilation_angle'", "add one, or remove it");
+    if (weakens && cohesion.is_zero() && weakening.tensile_strength == 0 && !dynamic_friction)
+      throw InputError(node.find("weakening")->origin, "'weakening' has no effect",
+                       "there is no cohesion or tensile strength to lose, and friction stays",
+                       "add one of these, or the 'friction' that is left");
     if (dilation && dilation->is_constant() && !dilation->is_zero())
       throw InputError(node.find("dilation")->origin, "'dilation' does not depend on the slip",
                        "it is the opening that slip makes", "write a formula of slip, such as 0.1*slip");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "framework/dense/symmetric_eigen.hpp"
@@ -31,8 +32,19 @@ std::string direction_text(Point direction) {
   return text + ")";
 }
 
-/// Pinned points on sides that are held in the same direction.
+/// Pinned points of one node that are held in the same direction, and on sides that are.
 void check_pinned(const Options& options, const Mesh& mesh) {
+  std::map<std::pair<int, int>, std::string> held;  // by node and axis
+  for (const auto& [name, point] : options.pinned)
+    for (int k = 0; k < dimension; ++k) {
+      if (!point.displacement_along[k]) continue;
+      const auto [other, is_first] = held.try_emplace({pinned_node(point, name, mesh), k}, name);
+      if (!is_first)
+        throw InputError(point.origin,
+                         fmt::format("the displacement in {} of the pinned points '{}' and '{}' is given twice",
+                                     axis_names[k], other->second, name),
+                         "one node of the mesh is nearest to both", "remove one of them, or refine the mesh there");
+    }
   for (const auto& [name, point] : options.pinned)
     for (const int face : mesh.node_faces[pinned_node(point, name, mesh)]) {
       const SideCondition* condition = condition_of(options, mesh, face);

@@ -14,8 +14,8 @@ Spec ExcavatedRegion::spec() {
   spec.data("support", support,
             {.range = between(0, 1),
              .doc = "Part of the initial stress of the region that still acts on its outline: 1 as long as the region "
-                    "is there, 0 when nothing supports the outline any more. From the first step with less than 1 on, "
-                    "the stiffness of the region is gone.",
+                    "is there, 0 when nothing supports the outline any more. In steps with "
+                    "less than 1 the region has no stiffness.",
              .source = "convergence and confinement, Panet and Guenot 1982",
              .required = true,
              .in_time = true});

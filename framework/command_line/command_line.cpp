@@ -30,7 +30,6 @@
 #include "framework/parallel/parallel.hpp"
 #include "framework/plugin/plugin.hpp"
 #include "framework/report/report.hpp"
-#include "framework/run/distinct_columns.hpp"
 #include "framework/run/note_records.hpp"
 #include "framework/run/simulation.hpp"
 #include "framework/run/start_notes.hpp"
@@ -67,7 +66,6 @@ void check_scene(const Scene& scene) {
   progress.phase("building the model");
   Model model(scene);
   if (scene.start.from) take_state_of_run(*scene.start.from, model);
-  require_distinct_columns(model.quantities());
   StopCondition(scene, model.quantities());
   long unknowns = 0;
   for (const Field* field : model.schedule().unknowns()) unknowns += field->size();

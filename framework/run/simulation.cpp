@@ -12,7 +12,6 @@
 #include "framework/output/progress.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/run/checkpoints.hpp"
-#include "framework/run/distinct_columns.hpp"
 #include "framework/run/early_end.hpp"
 #include "framework/run/effort.hpp"
 #include "framework/run/end_report.hpp"
@@ -110,7 +109,6 @@ Simulation::Simulation(const Scene& scene, const RunOptions& options)
       growth_(state_.model, state_.controller, log(),
               [this](const Model& model, const Model* settled) { effort_.retired(model, settled); }),
       attempts_(state_, growth_, effort_, profile_, progress_) {
-  require_distinct_columns(state_.model->quantities());
   recorder_.set_up_ends();
   if (!restart_) return;
   restart_->restore(state_);

@@ -92,7 +92,8 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   const bool has_output_probes =
       std::ranges::any_of(scene_.output.probes, [&](const auto& probe) { return !fields_.has(probe.second.of); });
   const std::vector<OutputField> outputs = has_output_probes ? derived_output() : std::vector<OutputField>();
-  for (const auto& [name, options] : scene_.output.probes) probes_.emplace_back(name, options, mesh_, fields_, outputs);
+  for (const auto& [name, options] : scene_.output.probes)
+    probes_.emplace_back(name, options, mesh_, fields_, outputs, cells_with_values(options, components_));
   require_values_at_probes(scene_.output, components_, mesh_);
   std::vector<Quantity> others;
   refusing_bad_data([&] {

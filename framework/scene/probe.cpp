@@ -58,7 +58,7 @@ const OutputField* find(const std::vector<OutputField>& outputs, const std::stri
 }  // namespace
 
 Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields,
-             const std::vector<OutputField>& outputs)
+             const std::vector<OutputField>& outputs, const std::vector<char>& has_values)
     : name_(name), take_(options.take), of_(options.of) {
   if (fields.has(of_)) {
     field_ = &fields.at(of_);
@@ -80,7 +80,7 @@ Probe::Probe(const std::string& name, const ProbeOptions& options, const Mesh& m
   if (options.at)
     set_point_weights(mesh, options);
   else
-    set_domain_weights(mesh, options);
+    set_domain_weights(mesh, options, has_values);
 }
 
 void Probe::check_names(const Mesh& mesh, const ProbeOptions& options) const {
@@ -126,15 +126,17 @@ void Probe::set_point_weights(const Mesh& mesh, const ProbeOptions& options) {
                      "there is no cell at its position", "move it inside");
 }
 
-void Probe::set_domain_weights(const Mesh& mesh, const ProbeOptions& options) {
+void Probe::set_domain_weights(const Mesh& mesh, const ProbeOptions& options, const std::vector<char>& has_values) {
+  const auto counts = [&](int cell) { return has_values.empty() || has_values[cell]; };
   if (location_ == Location::fracture_cell) {
     for (int i = 0; i < mesh.fracture_cell_count(); ++i)
-      if (options.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == options.fracture)
+      if (counts(i) &&
+          (options.fracture.empty() || mesh.fractures[mesh.fracture_cells[i].fracture].name == options.fracture))
         weights_.emplace_back(i, mesh.fracture_cells[i].measure);
   } else {
     std::map<int, double> shares;  // of the entities in the measures of cells
     for (int c = 0; c < mesh.cell_count(); ++c)
-      if (options.region.empty() || mesh.region_names[mesh.cell_region[c]] == options.region)
+      if (counts(c) && (options.region.empty() || mesh.region_names[mesh.cell_region[c]] == options.region))
         for (const auto& [entity, weight] : weights_in_cell(mesh, location_, c, mesh.cell_center[c]))
           shares[entity] += weight * mesh.cell_measure[c];
     weights_.assign(shares.begin(), shares.end());

@@ -33,10 +33,11 @@ struct ProbeOptions {
 /// - Over a fracture or region: the mean, integral, smallest or largest value.
 class Probe {
  public:
-  /// `outputs`: what parts write beside their fields. Throws InputError for names that are neither a field nor an
+  /// `outputs`: what parts write beside their fields. `has_values`: one flag a cell, or fracture cell; empty where all
+  /// have. Throws InputError for names that are neither a field nor an
   /// output, for unknown fractures and regions, and for points outside of the mesh.
   Probe(const std::string& name, const ProbeOptions& options, const Mesh& mesh, const FieldStore& fields,
-        const std::vector<OutputField>& outputs = {});
+        const std::vector<OutputField>& outputs = {}, const std::vector<char>& has_values = {});
   /// Whether it measures an output, which `measure` then needs.
   bool is_of_output() const { return field_ == nullptr; }
   /// Appends one quantity for each component: "name.x", "name.y" for vectors of the matrix, "name.xx", "name.yy",
@@ -46,7 +47,7 @@ class Probe {
  private:
   void check_names(const Mesh& mesh, const ProbeOptions& options) const;
   void set_point_weights(const Mesh& mesh, const ProbeOptions& options);
-  void set_domain_weights(const Mesh& mesh, const ProbeOptions& options);
+  void set_domain_weights(const Mesh& mesh, const ProbeOptions& options, const std::vector<char>& has_values);
 
   std::string name_, take_, of_;
   const Field* field_ = nullptr;  ///< nullptr where the probe measures an output

@@ -8,10 +8,28 @@
 
 namespace sprekk {
 
+namespace {
+
+bool names_no_place(const ProbeOptions& probe) { return !probe.at && probe.fracture.empty() && probe.region.empty(); }
+
+}  // namespace
+
+const std::vector<char>& cells_with_values(const ProbeOptions& probe,
+                                           const std::vector<std::unique_ptr<Component>>& components) {
+  static const std::vector<char> all;
+  if (!names_no_place(probe)) return all;
+  for (const auto& component : components)
+    if (const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
+        partial && probe.of.starts_with(component->name() + "."))
+      return partial->inhabited_cells();
+  return all;
+}
+
 void require_values_at_probes(const OutputOptions& options, const std::vector<std::unique_ptr<Component>>& components,
                               const Mesh& mesh) {
   for (const auto& [name, probe] : options.probes)
     for (const auto& component : components) {
+      if (names_no_place(probe)) continue;  // wherever there are values
       const auto* partial = dynamic_cast<const LivesInPart*>(component.get());
       if (!partial || partial->inhabited_cells().empty() || !probe.of.starts_with(component->name() + ".")) continue;
       if (partial->lives_on_fractures()) {
@@ -47,7 +65,10 @@ void require_values_at_probes(const OutputOptions& options, const std::vector<st
 void require_own_columns(const OutputOptions& options, const std::vector<Probe>& probes,
                          const std::vector<OutputField>& outputs, const std::vector<Quantity>& others) {
   std::set<std::string> taken = {"time", "step", "iterations", "splitting_error", "coupled_residual"};
-  for (const Quantity& quantity : others) taken.insert(quantity.name);
+  for (const Quantity& quantity : others)
+    if (!taken.insert(quantity.name).second)
+      throw InputError("two columns of history.csv have the name " + quantity.name +
+                       " (a component, or a place in it, gives it its name) rename one of them");
   std::size_t i = 0;
   for (const auto& [name, probe] : options.probes) {
     std::vector<Quantity> columns;

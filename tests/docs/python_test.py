@@ -47,6 +47,16 @@ class Python(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "did you mean 'a.u'"):
             fields["a.v"]  # pylint: disable=pointless-statement
 
+    def test_means_where_there_are_values(self):
+        """Of points, linear in triangles: 3 x + y over the rectangle is 3.5. Of a field that some cells lack: over the others."""
+        cells = np.array([[0, 1, 2], [0, 2, 3]])
+        grid = sprekk.Grid(POINTS, cells, {"a.p[Pa]": np.array([np.nan, 4.0])}, {"a.u[m]": np.stack([3 * POINTS[:, 0] + POINTS[:, 1], *np.zeros((2, 4))], axis=1)},
+                           component_names={"a.u[m]": ["x", "y", "z"]})
+        fields = sprekk.Fields(7.0, grid)
+        np.testing.assert_allclose(fields.mean("a.u"), [3.5, 0])
+        self.assertAlmostEqual(fields.mean("a.u.x"), 3.5)
+        self.assertAlmostEqual(fields.mean("a.p"), 4)
+
     def test_histories(self):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)

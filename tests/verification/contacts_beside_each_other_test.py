@@ -153,6 +153,18 @@ class ContactsBesideEachOther(SceneRuns):
                     counts = [beside.history[f"{name}.cells_{states}[1]"] for name in ("faults", "joints")]
                     self.assertTrue(np.array_equal(sum(counts), alone.history[f"contact.cells_{states}[1]"]))
 
+    def test_a_probe_that_names_no_place_measures_where_its_component_lives(self):
+        probes = "  probes:\n    most: {of: joints.jump, take: largest}\n    whole: {of: joints.jump, take: integral}\n    mean: {of: joints.jump, take: mean}\n"
+        for place in ("", "turned"):
+            run = self.run_text(two(PLACES[place]).replace("  probes:\n", probes)).history
+            lengths = {"branch": np.linalg.norm(POINTS[3] - POINTS[2]), "joint": np.linalg.norm(POINTS[5] - POINTS[4])}
+            for k in ("n[m]", "t[m]"):
+                self.assertTrue(np.array_equal(run[f"most.{k}"], np.maximum(run[f"jump_branch_largest.{k}"], run[f"jump_joint_largest.{k}"])))
+                whole = sum(length * run[f"jump_{name}_mean.{k}"] for name, length in lengths.items())
+                column = next(name for name in run if name.startswith(f"whole.{k[0]}"))
+                self.assertLess(np.abs(run[column] - whole).max(), 1e-10 * np.abs(whole).max() + 1e-18)
+                self.assertLess(np.abs(run[f"mean.{k}"] * sum(lengths.values()) - whole).max(), 1e-10 * np.abs(whole).max() + 1e-18)
+
     def test_a_beginning_stands_for_names(self):
         renamed = two(POINTS).replace("branch", "set_1").replace("joint:", "set_2:").replace("fracture: joint,", "fracture: set_2,")
         self.assertIn("[set_1,joint]", renamed)

@@ -184,6 +184,7 @@ class Springs(SpaceRuns):
                                      (free, rock + "large_strain=0.01", ("turning", "pinned")),
                                      (free, rock + "pinned.b={at: [1 m, 0.5 m], displacement_y: 0 m}", ("on a fracture",)),
                                      (free, rock + "pinned.b={at: [5 m, 0.5 m], displacement_y: 0 m}", ("outside",)),
+                                     (free, rock + "pinned.b={at: [0.001 m, 0 m], displacement_y: 1 mm}", ("'a' and 'b'", "given twice")),
                                      (free, rock + "pinned.b={at: [2 m, 0.5 m]}", ("holds nothing",)),
                                      (free, rock + "pinned.b={displacement_y: 0 m}", ("at",)),
                                      (free, rock + "boundary.bottom={displacement_y: 0 m}", ("given twice", "bottom"))):

@@ -51,6 +51,13 @@ class Grid:
         centres = np.stack([np.bincount(cell, moments[:, k], count) for k in range(3)], axis=1) / sizes[:, None]
         return centres, sizes
 
+    def means_in_cells(self, values):
+        """The mean over the points of each cell, of values of points."""
+        counts = np.ones(self.cells.shape, bool)  # smaller cells repeat their last point
+        counts[:, 1:] = self.cells[:, 1:] != self.cells[:, :-1]
+        shares = counts / counts.sum(axis=1, keepdims=True)
+        return np.einsum("mk,mk...->m...", shares, values[self.cells])
+
     def simplices(self):
         """The corners (k, d + 1, 3) of lines, triangles or tetrahedra that make up the cells, and the cell of each. A quadrilateral
         that bounds a body is taken for the four triangles between its edges and the mean of its nodes, as the program does."""

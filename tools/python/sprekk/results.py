@@ -75,9 +75,14 @@ class Fields:
         return values[:, :self.dimension] if names[:1] == ["x"] else values
 
     def mean(self, name):
-        """The mean over the area, or over the length of fractures."""
+        """The mean over the area, or over the length of fractures, where the field has values (a contact on some fractures is nan on the
+        others). Fields of points are linear in triangles and tetrahedra; in other cells the mean of their points is taken."""
         values = self[name]
-        return np.tensordot(self.sizes, values, 1) / self.sizes.sum()
+        own = {without_unit(name), without_unit(name).rpartition(".")[0]}
+        if own.isdisjoint(map(without_unit, self.grid.cell_data)):
+            values = self.grid.means_in_cells(values)
+        has_value = np.isfinite(values.reshape(len(values), -1)).all(axis=1)
+        return np.tensordot(self.sizes[has_value], values[has_value], 1) / self.sizes[has_value].sum()
 
 
 class Results:
