@@ -1,4 +1,5 @@
 // thermal_pressurization: fluid and grains expand when they are warmed, which presses fluid out of pores and fractures.
+#include <algorithm>
 #include <optional>
 
 #include "components/capabilities/fracture_fluid.hpp"
@@ -84,6 +85,9 @@ class ThermalPressurization : public Coupler, public FollowsMesh, public KeepsTo
       for (int i = 0; i < volumes.size(); ++i) volumes[i] = mesh_.fracture_cells[i].measure * beta[i];
       places_.push_back({fracture_fluid_->pressure(), fracture_heat->temperature(), true, std::move(volumes)});
     }
+    if (std::ranges::none_of(places_, [](const Place& place) { return place.pressure.spec().role.is_unknown(); }))
+      throw InputError(context.origin, "coupler " + name() + " has no effect",
+                       "the pressure is given, whatever the fluid does", "remove it");
     for (Place& place : places_) add_fields(context, place);
   }
 
@@ -136,6 +140,11 @@ class ThermalPressurization : public Coupler, public FollowsMesh, public KeepsTo
         if (dynamic_cast<const Capability*>(component)) return component->name();
       return "";
     };
+    const auto is_given = [](Component* component) {
+      auto* fluid = dynamic_cast<MatrixFluid*>(component);
+      return fluid && !fluid->pressure().spec().role.is_unknown();
+    };
+    if (std::ranges::any_of(components, is_given)) return;
     const std::string fluid = name_of(static_cast<MatrixFluid*>(nullptr)),
                       heat = name_of(static_cast<MatrixTemperature*>(nullptr)),
                       rock = name_of(static_cast<PoroelasticRock*>(nullptr));

@@ -61,18 +61,15 @@ void check_pinned(const Options& options, const Mesh& mesh) {
     }
 }
 
-/// Where prescribed displacements hold a face: by its mean in a plane; in space, where rock is finite elements, at
-/// nodes.
-std::vector<Point> held_points(const Mesh& mesh, int face) {
+/// Where prescribed displacements hold a face: at its nodes, or by its mean.
+std::vector<Point> held_points(const Mesh& mesh, int face, Location displaced) {
+  if (displaced != Location::node) return {mesh.face_center[face]};
   std::vector<Point> points;
-  if (dimension == 2)
-    points.push_back(mesh.face_center[face]);
-  else
-    for (const int node : mesh.face_nodes[face]) points.push_back(mesh.nodes[node]);
+  for (const int node : mesh.face_nodes[face]) points.push_back(mesh.nodes[node]);
   return points;
 }
 
-void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
+void check_held(const Options& options, const Mesh& mesh, Location displaced, const Origin& where) {
   // How prescribed displacements resist the rigid motions: along the axes, and turning about the middle of the rock.
   Point middle = Point::Zero();
   for (const Point& center : mesh.cell_center) middle += center / mesh.cell_count();
@@ -94,7 +91,7 @@ void check_held(const Options& options, const Mesh& mesh, const Origin& where) {
       spring =
           condition->spring_at({mesh.face_center[f], mesh.cell_region[mesh.face_cells[f][0]], 0}, mesh.face_normal[f]);
     const Tensor along = axes_of(ConditionAxes::of_face, mesh.face_normal[f]);
-    for (const Point& point : held_points(mesh, f)) {
+    for (const Point& point : held_points(mesh, f, displaced)) {
       const Point arm = (point - middle) / size;
       for (int k = 0; k < dimension; ++k) {
         if (condition->displacement_of(k)) resist(arm, axes.col(k));
@@ -134,10 +131,10 @@ const SideCondition* condition_of(const Options& options, const Mesh& mesh, int 
   return found == options.boundary.end() ? nullptr : &found->second;
 }
 
-void check_conditions(const Options& options, const Mesh& mesh, const Origin& where) {
+void check_conditions(const Options& options, const Mesh& mesh, Location displaced, const Origin& where) {
   check_sides(options, mesh);
   check_pinned(options, mesh);
-  check_held(options, mesh, where);
+  check_held(options, mesh, displaced, where);
 }
 
 }  // namespace sprekk::poromechanics

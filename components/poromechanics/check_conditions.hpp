@@ -11,7 +11,8 @@ namespace sprekk::poromechanics {
 const SideCondition* condition_of(const Options& options, const Mesh& mesh, int face);
 
 /// Throws InputError for sides that do not exist, and when the displacements that are prescribed let the rock move as a
-/// rigid body. `where`: of the component.
-void check_conditions(const Options& options, const Mesh& mesh, const Origin& where);
+/// rigid body. `displaced`: where the displacements are; those of cells are held by means over faces. `where`: of the
+/// component.
+void check_conditions(const Options& options, const Mesh& mesh, Location displaced, const Origin& where);
 
 }  // namespace sprekk::poromechanics

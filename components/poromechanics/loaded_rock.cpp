@@ -20,7 +20,7 @@ LoadedRock::LoadedRock(const ComponentContext& context, const Options& options, 
                                                .unit = "m",
                                                .doc = "Displacement of the rock"})),
       stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
-  check_conditions(options_, mesh_, context.origin);
+  check_conditions(options_, mesh_, location, context.origin);
 }
 
 void LoadedRock::add_wall_traction(FieldStore& fields) {

@@ -73,8 +73,11 @@ class Start {
       given = condition->traction_in(step_, place_of(face, 0), normal);
     }
     Point difference = axes.transpose() * (given - initial);
-    for (int k = 0; k < dimension; ++k)
-      if (condition && condition->displacement_of(k)) difference[k] = 0;
+    for (int k = 0; k < dimension; ++k) {
+      if (!condition || !condition->displacement_of(k)) continue;
+      given -= difference[k] * axes.col(k);  // a side that is held bears what the rock presses
+      difference[k] = 0;
+    }
     if (difference.norm() <= worst.stress) return;
     // + 0.0: no -0 in the text. In space the stress along a side has a direction, too; the difference may be in it.
     const Tensor along = axes_of(ConditionAxes::of_face, normal);

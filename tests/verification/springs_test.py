@@ -152,6 +152,30 @@ class Springs(SpaceRuns):
             one = self.run_scene(scene, *settings)
             self.assertLess(self.largest_difference(self.run_scene(scene, *settings, processes=2), one, COLUMNS), 1e-8)
 
+    def test_one_face_holds_a_beam(self):
+        """Bent by a moment at its end, with a Poisson's ratio of 0: u_x = s x (y - 1/2)/E, u_y = -s x^2/(2 E), by elements of second order."""
+        text = """
+name: beam
+geometry: {box: {x: [0 m, 4 m], y: [0 m, 1 m]}}
+mesh: {kind: structured, cells: [4, 1], shape: quadrilaterals}
+components:
+  rock:
+    type: poromechanics/fem
+    order: second
+    young_modulus: 1 GPa
+    poisson_ratio: 0
+    boundary: {left: {displacement: [0 m, 0 m]}, right: {normal_stress: "(1e6*(y - 0.5)) Pa"}}
+schedule: [{solve: rock}]
+time: {end: 1 s, step: 1 s}
+output: {probes: {u: {of: rock.displacement, at: [4 m, 1 m]}}}
+"""
+        run = self.run_scene(self.write(text, "beam.yaml"))
+        self.assertLess(abs(run["u.x"][-1] / (1e-3 * 4 * 0.5) - 1), 1e-10)
+        self.assertLess(abs(run["u.y"][-1] / (-1e-3 * 16 / 2) - 1), 1e-10)
+        said = self.call("check", self.write(text.replace("fem", "mpsa").replace("    order: second\n", ""), "cells.yaml"))
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("turning", said.stderr)
+
     def test_counted_from_a_settled_state(self):
         """Springs keep what they bear: with the loads of the settled state nothing moves, and later loads move the rock as they would from the start."""
         scene = self.write(BED, "bed.yaml")
