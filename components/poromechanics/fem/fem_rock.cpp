@@ -171,7 +171,7 @@ void FemRock::require_countable() const {
   if (order_ == ElementOrder::first)
     throw InputError(origin_, "the displacements of '" + name() + "' cannot be counted from a settled state",
                      "elements of first order are stabilized by more than the stress of their cells",
-                     "use 'order: second', or poromechanics/mpsa");
+                     dimension == 2 ? "use 'order: second', or poromechanics/mpsa" : "use 'order: second'");
 }
 
 void FemRock::count_from_equilibrium() {
