@@ -12,14 +12,15 @@
 
 namespace sprekk {
 
-// Written for Darcy flow: pressure p (Pa), mobility (m^2/(Pa s)), flux (m^2/s). Conduction of heat has the same
-// operators: temperature (K), conductivity (W/(m K)), heat flux (W/m).
+// Written for Darcy flow in a plane: pressure p (Pa), mobility (m^2/(Pa s)), flux (m^2/s; in space m^3/s). Conduction
+// of heat has the same operators: temperature (K), conductivity (W/(m K)), heat flux (W/m; in space W).
 
 /// What is prescribed on a face: nothing on inner faces, the pressure, or the flux, as on walls of fractures.
 enum class FlowCondition { none, pressure, flux };
 
-/// What a discretization has in addition if the pressures h of inner faces (one for each face, Pa; those of other faces
-/// are not used by anything) are unknowns beside those of the cells. If they are not, the matrices have no rows.
+/// What a discretization has in addition if the pressures h of inner faces are unknowns beside those of the cells.
+/// There is one h for each face (Pa); those of other faces are not used. Without such unknowns the matrices have no
+/// rows.
 ///   flux through every face (m^2/s): … + flux h
 ///   pressure at the centre of every boundary and wall face (Pa): … + trace h
 ///   the equations of h, one for each face (m^2/s): continuity_cell p + continuity_face h + continuity_boundary b = 0

@@ -7,8 +7,9 @@
 
 namespace sprekk {
 
-/// The state of the flow at the end of a step. A potential is a pressure minus that of a fluid column at rest. For
-/// conducted heat, potentials are temperatures in K, fluxes are in W/m, and storage is in J/(m K).
+/// The state of the flow at the end of a step. A potential is a pressure minus that of a fluid column at rest. Units
+/// are those of a fluid in a plane. For conducted heat, potentials are temperatures in K, fluxes are in W/m, and
+/// capacities are in J/(m K).
 struct FlowStep {
   const Mesh& mesh;
   const std::vector<FlowCondition>& conditions;

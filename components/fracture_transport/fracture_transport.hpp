@@ -31,7 +31,7 @@ struct Options {
 void declare_sides(Spec& spec, Options& options, const Carried& carried);
 
 /// Unknown: the value T (temperature, concentration) of every fracture cell, a mean across the aperture a. Each row
-/// balances the amount in it over the step (J/m, kg/m):
+/// balances the amount in one cell over the step (J/m or kg/m; in space J or kg, with the area of the cell for L):
 ///   C a L (T − T_old) + dt (sum of the conducted fluxes out of it) + dt r C a L T = 0,
 /// the flux between two cells through the resistances L/(2 k a) of their halves in series. Where more than two cells
 /// meet, each half leads through what fills the crossing to its middle, which stores nothing. What comes through the

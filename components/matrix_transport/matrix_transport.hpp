@@ -36,10 +36,10 @@ struct Options {
 void declare_sides(Spec& spec, Options& options, const Carried& carried, const std::string& flux_key);
 
 /// Unknown: the value T (temperature, concentration) of every cell. Each row balances the amount in one cell over the
-/// step (J/m, kg/m):
+/// step (J/m or kg/m; in space J or kg):
 ///   C V (T − T_old) + dt (sum of the conducted fluxes out of it) + dt r C V T − dt H V = 0,  flux = −k grad T,
-/// with the capacity C of rock and what is in its pores at the start, and the rate r of decay. What flowing fluid
-/// carries is added by a coupler.
+/// with the capacity C of rock and what is in its pores at the start, the rate r of decay, and the source H. What
+/// flowing fluid carries is added by a coupler.
 class MatrixTransport : public Component,
                         public virtual MatrixCarried,
                         public virtual CarriedWalls,

@@ -17,7 +17,7 @@ namespace sprekk::wells {
 /// What holds in a well.
 enum class Binding { rate, pressure, shut };
 
-/// What a well is to do in a step.
+/// What a well is to do in a step. Rates here and below are in m^2/s, in space in m^3/s.
 struct Control {
   bool has_pressure = false;  ///< the pressure is given, and no rate
   double rate = 0;            ///< m^2/s

@@ -65,8 +65,8 @@ struct StreamSources {
 /// The streams of cells of the rock that the process owns. `fluxes`: through each face, m^2/s (in space m^3/s), out of
 /// face_cells[f][0].
 std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes);
-/// The streams of all fracture cells. At a junction all that flows in mixes, and each cell that takes fluid gets of the
-/// mixture. A reservoir supplies what its cells lose to others, and takes what they gain.
+/// The streams of all fracture cells. At a junction all that flows in mixes, and each cell into which fluid flows
+/// receives the mixture. A reservoir supplies what its cells lose to others, and takes what they gain.
 std::vector<Stream> streams_of_fractures(const StreamSources& sources, const FlowRates& rates);
 
 }  // namespace sprekk::couplers

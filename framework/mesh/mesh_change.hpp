@@ -33,9 +33,9 @@ struct MeshChange {
   std::vector<int> removed_cells;  ///< the old cells that no longer exist, ascending
   /// Where fracture cells have been replaced by others, along the way from the last point that was kept.
   std::vector<ReplacedPart> replaced_parts;
-  /// Whether fractures are where they were, so that a state differs by its cells alone.
+  /// Whether all fractures keep their places: the change makes other cells, and nothing else.
   bool is_at_rest = false;
-  /// Whether no step has been made before the change: the state is that which the scene gives, on any mesh.
+  /// Whether the mesh changes before the first step: the state is then the initial one of the scene.
   bool is_at_start = false;
 };
 

@@ -43,8 +43,8 @@ struct HalfSpace {
   Point point, normal;
 };
 
-/// A part of the box with a name, for properties of its own. In a plane it is a polygon; in space it is what all of its
-/// half-spaces have in common with what lies between its surfaces.
+/// A part of the box with a name, for properties of its own. In a plane it is a polygon; in space it is the
+/// intersection of its half-spaces with the layer between its surfaces.
 struct RegionGeometry {
   std::string name;
   std::vector<Point> polygon;  ///< m, simple, either orientation, not closed by a repeated point

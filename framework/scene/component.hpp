@@ -86,7 +86,7 @@ class CouplerContext {
       if (dynamic_cast<Capability*>(component) && !std::ranges::count(between_, component)) return component->name();
     return {};
   }
-  /// Throws InputError if one of the components was not asked for.
+  /// Throws InputError if the coupler has not asked for one of the components.
   void check_all_used() const;
   /// Lets the coupler determine an input field; throws InputError if another coupler does.
   void determine(Field& input) const;

@@ -39,8 +39,9 @@ class FrontSearch {
   /// After `found` the trial is the one to go on with; `again` where a tip that has grown now is to be searched for,
   /// too.
   virtual Verdict conclude(Growing& trial, const StepTime& step) = 0;
-  /// The mesh cannot take a path, an index into paths(). `again`: its tip stops for good, and the next trial is without
-  /// it; `refused`: the search had come there from paths that the mesh could take, and the step is too long for it.
+  /// The mesh cannot take a path, an index into paths(). `again`: the next trial is without it, since its tip stops for
+  /// good, or its tip jumps less far; `refused`: the mesh could take earlier paths of the search, so the step is too
+  /// long.
   virtual Verdict give_up(int path, const std::string& why) = 0;
   /// The step with the last paths could not be solved. Whether there are others, with less growth, to try instead.
   virtual bool retreat() = 0;
@@ -68,7 +69,7 @@ class Growing {
     double onset_accepted = 0;  ///< the same at the start of the step
     /// Largest relative change over the step of the state at the tips that a growth event disturbs.
     double unsettled = 0;
-    /// The same for the part of the change that the rate of the last step does not foretell: 0 where the state drifts
+    /// The same for the part of the change that the rate of the last step does not predict: 0 where the state drifts
     /// evenly, as under an injection. At most `unsettled`.
     double uneven = 0;
   };

@@ -13,9 +13,8 @@
 namespace sprekk::poromechanics {
 
 /// A quantity as a linear function of
-/// - u, the unknowns: displacements of every node, m; at second order then of every edge, in space, and of every face,
-/// m; at first order, with a
-///   volumetric stress, then that of every cell, Pa;
+/// - u, the unknowns: displacements of every node, m; at second order then those of every edge, in space, and of every
+///   face, m; at first order, with a volumetric stress, then that of every cell, Pa;
 /// - s, the isotropic stress of every cell, Pa (sigma = C : grad u − s I);
 /// - T, the traction on the plus wall of every fracture cell, Pa, (normal, tangential); opposite on the minus wall;
 /// - F, the forces on all coefficients of the displacement (RawDisplacement), N/m;
