@@ -24,10 +24,11 @@ struct Carried {
   std::string capacity;       ///< what holds it: "heat capacity"
   std::string capacity_unit;  ///< amount_unit over unit
   std::string example;        ///< of a value, as a scene writes it
-  std::string advice;         ///< what to give where fluid leaves that a cell has not; {} is the component
+  std::string advice;         ///< what to give where more fluid leaves a cell than it has; {} is the component
   const char* in_formulas;    ///< the name of the value in formulas of the flow; nullptr where they may not use it
   Range range;                ///< of values
-  /// The value of fluid from outside of which the scene says nothing; without it, that of the cell which it enters.
+  /// The value of fluid from outside for which the scene gives none; without it, such fluid has the value of the cell
+  /// that it enters.
   std::optional<double> of_unknown_fluid;
   bool has_absolute_zero;  ///< whether values near zero are a mistake (cold.hpp)
 };

@@ -13,7 +13,7 @@ namespace sprekk {
 
 /// A place where a well is open to what is around it.
 struct WellPlace {
-  int well = 0;      ///< of which well
+  int well = 0;      ///< index of the well
   std::string name;  ///< of the well in the scene, with that of the place where it has several
   Origin origin;
   Point at = Point::Zero();

@@ -243,9 +243,9 @@ class FrictionalContact : public Component,
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
   double slip_at_start_ = 0;                 ///< m, the largest, of the state that was settled
-  std::string passed_;                       ///< what is told of a loss of stability that this step has passed
+  std::string passed_;                       ///< the text on a loss of stability that this step has passed
   Vector shear_modulus_;                     ///< Pa, of the rock beside each cell; empty where it is not known
-  bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction
+  bool is_solved_for_ = false;               ///< whether the present solve determines the traction
   std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in observe_iterate
   double dt_ = 0;                            ///< s, of the step
   bool is_without_shortcuts_ = false;        ///< after Newton's method has failed

@@ -39,7 +39,7 @@ struct Trial : TrialTraction<dimension - 1> {
 struct SlipOfStep {
   double size;
   TangentialVector by_jump;
-  double below_zero = 0;  ///< m, negative where the slip is against `by_jump`: laws go on linearly from no slip there
+  double below_zero = 0;  ///< m, negative where the slip is against `by_jump`: laws are continued linearly there
   bool is_first = false;  ///< whether the walls have not slid before, so that this is their whole slip, too
 };
 

@@ -17,11 +17,11 @@ namespace sprekk::fracture_transport {
 
 /// Parameters of a balance in fractures.
 struct Options {
-  Data aperture;      ///< m
-  Data conductivity;  ///< heat: W/(m K); tracer: the diffusion, m^2/s
-  Data capacity;      ///< heat: J/(m^3 K); tracer: the retardation factor
-  Data initial_value;
-  Data decay;  ///< 1/s
+  Data aperture;       ///< m
+  Data conductivity;   ///< heat: W/(m K); tracer: the diffusion, m^2/s
+  Data capacity;       ///< heat: J/(m^3 K); tracer: the retardation factor
+  Data initial_value;  ///< in Carried::unit
+  Data decay;          ///< 1/s
   std::map<std::string, Data> boundary;
   std::map<std::string, Origin> boundary_origins;
   Crossings crossings;

@@ -18,7 +18,7 @@ namespace sprekk::matrix_transport {
 struct SideCondition {
   Origin origin;
   std::optional<Data> value;
-  std::optional<Data> flux;  ///< out of the rock, per area
+  std::optional<Data> flux;  ///< out of the rock, per area (Carried::flux_unit)
 };
 
 /// Parameters of a balance in the matrix.
@@ -26,9 +26,9 @@ struct Options {
   TensorData conductivity;  ///< heat: W/(m K); tracer: the diffusion in the pores, m^2/s
   Data capacity;            ///< heat: J/(m^3 K); tracer: the retardation factor
   Data porosity = 1;        ///< a factor of both
-  Data initial_value;
-  Data source;  ///< an amount per volume and time
-  Data decay;   ///< 1/s
+  Data initial_value;       ///< in Carried::unit
+  Data source;              ///< an amount per volume and time
+  Data decay;               ///< 1/s
   std::map<std::string, SideCondition> boundary;
 };
 

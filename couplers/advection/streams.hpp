@@ -50,7 +50,8 @@ struct StreamSources {
   const WellPressures* wells = nullptr;
   const Field* rock_pressure = nullptr;      ///< of the flow in the matrix
   const Field* fracture_pressure = nullptr;  ///< and in the fractures
-  /// The value of fluid of which the scene says nothing; without it, that of the cell which it enters.
+  /// The value of entering fluid for which the scene gives none; without it, such fluid has the value of the cell that
+  /// it enters.
   std::optional<double> unknown = {};
   /// The value of fluid from a named place, by name.
   std::vector<std::pair<std::string, double>> injected = {};

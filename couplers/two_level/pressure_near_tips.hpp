@@ -40,9 +40,9 @@ class PressureNearTips {
   };
   /// Nothing where the cell is in no ring.
   std::optional<Place> place(int cell, const Point& x) const;
-  /// A pressure, and how much it counts against that of a smooth fit: 1 where it stays within all that is given. Where
-  /// fluid has reached less than about an eighth of a cell from the walls, the means do not tell how the pressure
-  /// falls; what is found then goes beyond the given pressures, and counts less, or not at all.
+  /// A pressure, and its weight against that of a smooth fit: 1 where it stays within the range of the given pressures.
+  /// Where fluid has reached less than about an eighth of a cell from the walls, the means do not determine how the
+  /// pressure falls; what is found then leaves that range, and has a smaller weight, or none.
   struct Value {
     double value, weight;
   };

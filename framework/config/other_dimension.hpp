@@ -3,7 +3,7 @@
 
 namespace sprekk {
 
-/// Thrown where something is for the program of another dimension (2, 3), to which it is handed over.
+/// Thrown for input of another dimension (2, 3) than that of this program. The program for that dimension takes over.
 struct OtherDimension {
   int dimension;
 };

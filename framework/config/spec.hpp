@@ -73,7 +73,7 @@ class Spec {
   Spec& custom(const std::string& name, std::function<void(const Node&)> read, About about);
   /// A check across parameters, made after all are read; throws InputError.
   Spec& check(std::function<void(const Node& whole)> check);
-  /// Keys that somebody else reads (for example `type`): allowed and ignored.
+  /// Keys that other code reads (for example `type`): allowed and ignored.
   Spec& ignore(const std::string& name);
 
   /// Reads all parameters into their targets. Unknown keys, missing required ones, wrong dimensions, values out of

@@ -11,7 +11,7 @@ namespace sprekk {
 /// A part of a fracture cell that has been replaced, by the way along the fracture.
 struct ReplacedPart {
   int cell;       ///< the new fracture cell in whose place the part is
-  int old_cell;   ///< the fracture cell that is no more
+  int old_cell;   ///< the fracture cell of the old mesh that it was in
   double share;   ///< of the old cell's length, above 0; all parts of an old cell add up to 1
   double length;  ///< m, of the part
 };

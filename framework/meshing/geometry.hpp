@@ -38,7 +38,7 @@ struct FractureGeometry {
   std::optional<Ellipse> ellipse = std::nullopt;  ///< in space, instead of points
 };
 
-/// What lies on the side of a plane into which `normal` (of any length) points.
+/// What lies on the side of a plane into which `normal` (of any length) points. `point` (m) is on the plane.
 struct HalfSpace {
   Point point, normal;
 };

@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// Throws InputError where two quantities of a scene have one name, so that whoever reads the table sees one of them.
+/// Throws InputError where two quantities of a scene have one name: readers of the table would see one of them only.
 void require_distinct_columns(const std::vector<Quantity>& quantities);
 
 }  // namespace sprekk

@@ -36,7 +36,7 @@ class Component : public Part {
 /// What a coupler is built from: the components that it stands between, asked for by capability.
 class CouplerContext {
  public:
-  /// `scene`: all components of the scene, of which the coupler stands between some.
+  /// `between`: the components that the coupler stands between; `scene`: all components of the scene.
   CouplerContext(std::string name, const Mesh& mesh, FieldStore& fields, std::vector<Component*> between,
                  std::vector<Component*> scene, double start_time, Origin origin);
 

@@ -73,7 +73,7 @@ class Growing {
     /// evenly, as under an injection. At most `unsettled`.
     double uneven = 0;
   };
-  /// Throws InputError where nothing tells it what loads its tips.
+  /// Throws InputError where no part gives it the loads of its tips.
   virtual void require_loads() const {}
   virtual Load examine(const StepTime& step) = 0;
   /// Examines only the tips whose growth search_front() finds: the others do not count in trials.
@@ -119,14 +119,14 @@ class Growing {
   virtual std::vector<PendingPath> pending_paths() const { return {}; }
   /// How the mesh changes around a path that it takes over.
   virtual CavityOptions cavity() const = 0;
-  /// A number that tells whether the meshes that the component has of its own have the same topology; 0 if it has none.
+  /// A hash of the topology of the meshes that the component itself keeps; 0 if it keeps none.
   virtual std::uint64_t topology() const { return 0; }
   /// Whether the systems that settle a state after growth may be so nearly singular that a solver which is quick for
   /// small systems loses digits.
   virtual bool settling_costs_digits() const { return false; }
 };
 
-/// A component with fractures that stay as they are, for whoever names it in a `grow` step.
+/// A component whose fractures cannot grow: it gives the reason to a user who names it in a `grow` step.
 class NotGrowing {
  public:
   virtual ~NotGrowing() = default;

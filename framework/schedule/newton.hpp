@@ -174,7 +174,7 @@ class Newton {
   std::optional<Loss> lost_;           ///< where the last path has ended
   std::optional<Loss> passed_;         ///< by the solution of the step `passed_in_`
   StepTime passed_in_;
-  StepTime last_failed_path_;  ///< the last step whose path failed; a hardly shorter step does not try again
+  StepTime last_failed_path_;  ///< the last step whose path failed; no path is tried in a step that is hardly shorter
   const Stabilization* stabilization_ = nullptr;
   const Responses* responses_ = nullptr;
   std::map<const Field*, Vector> start_;

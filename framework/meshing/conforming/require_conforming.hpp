@@ -11,8 +11,8 @@ namespace sprekk {
 
 /// Throws InputError that says how many places there are and where, if edges lie on one another with nodes of their
 /// own, a node lies on the inside of an edge, cells overlap or leave a gap that is far narrower than their edges, or a
-/// few cells are missing: a hole of few edges of which none `has_group`. Returns a note for each larger hole without a
-/// group. In space faces take the place of edges, and gaps are not looked for. The cells have the order of their
+/// few cells are missing: a hole with few edges, none of which `has_group`. Returns a note for each larger hole without
+/// a group. In space faces take the place of edges, and gaps are not looked for. The cells have the order of their
 /// shapes. Takes time in proportion to n log n of the number n of outer faces, in space to n^1.5.
 std::vector<std::string> require_conforming(const RawMesh& mesh, const FaceTable& faces,
                                             const std::vector<bool>& has_group);
