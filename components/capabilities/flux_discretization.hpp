@@ -56,14 +56,18 @@ struct OneSidedFluxOperators {
   }
 };
 
-/// Fluxes and traces as linear functions of pressures p (one for each cell, Pa), boundary values b (one for each face:
-/// the pressure at the face centre on `pressure` faces, the outward flux integrated over the face, m^2/s, on `flux`
-/// faces, ignored inside) and changes s of the prescribed pressure along `pressure` faces, in the directions of each
-/// (AlongFace; those of a face follow one another; Pa, ignored elsewhere):
-///   flux through every face, out of face_cells[f][0], integrated over it (m^2/s):
-///     flux_cell p + flux_boundary b + flux_change s
-///   pressure at the centre of every boundary and wall face (Pa):
-///     trace_cell p + trace_boundary b + trace_change s
+/// Fluxes and traces as linear functions of
+/// - pressures p, one for each cell, Pa;
+/// - boundary values b, one for each face: the pressure at the face centre (Pa) on `pressure` faces, the outward flux
+///   integrated over the face (m^2/s) on `flux` faces; ignored inside;
+/// - changes s of the prescribed pressure along `pressure` faces, in the directions of each (AlongFace; those of a
+///   face follow one another), Pa; ignored elsewhere.
+///
+/// They are
+/// - the flux through every face, out of face_cells[f][0], integrated over it (m^2/s):
+///   flux_cell p + flux_boundary b + flux_change s;
+/// - the pressure at the centre of every boundary and wall face (Pa):
+///   trace_cell p + trace_boundary b + trace_change s.
 struct FluxOperators {
   SparseMatrix flux_cell;       ///< faces × cells
   SparseMatrix flux_boundary;   ///< faces × faces

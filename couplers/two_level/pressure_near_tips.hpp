@@ -12,12 +12,12 @@
 
 namespace sprekk::couplers {
 
-/// The pressure in the cells of some rings around each tip, with the least integral of its squared gradient of all
-/// pressures that have the means of the cells, the given pressures at the walls, and given values on the rim of the
-/// rings. So it solves −laplace p = f with one f in each cell, which is the equation of the cells themselves: near the
-/// tip it goes with sqrt(r), as the pressure does. It is linear in the given values, and continuous in the geometry
-/// where the topology of the mesh stays. Found on a triangulation of the cells with linear elements that become finer
-/// towards the tips as (i/n)^2.
+/// The pressure in the cells of some rings around each tip. Of all pressures that have the means of the cells, the
+/// given pressures at the walls, and given values on the rim of the rings, it is the one with the least integral of its
+/// squared gradient. So it solves −laplace p = f with one f in each cell, which is the equation of the cells
+/// themselves: near the tip it varies with sqrt(r), as the pressure does. It is linear in the given values, and
+/// continuous in the geometry where the topology of the mesh stays. It is found by linear elements on a triangulation
+/// of the cells, in which the nodes of an edge that ends at a tip are at the parts (i/n)^2 of its length from there.
 class PressureNearTips {
  public:
   /// Keeps a reference to the mesh.

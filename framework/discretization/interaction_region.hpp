@@ -24,9 +24,9 @@ struct Subcell {
 
 /// The subcells and subfaces around a node. A subface is the part of a face next to the node (share_at_node), with the
 /// normal of the whole face. The values of both sides agree at the continuity point of a subface: in a plane a third of
-/// the way from the centre of the face to the node (Klausen, Radu, Eigestad 2008), in space see continuity_point. For a
-/// face with one cell the continuity point is the centre of the face, so that values there are the values of a boundary
-/// face or wall.
+/// the way from the centre of the face to the node (Klausen, Radu, Eigestad 2008), also on quadrilaterals, where
+/// continuity_point has the centre; in space that of continuity_point. For a face with one cell the continuity point is
+/// the centre of the face, so that values there are the values of a boundary face or wall.
 struct InteractionRegion {
   std::vector<Subcell> subcells;  ///< in the order of Mesh::node_cells
   std::vector<int> faces;         ///< of the subfaces, in the order of Mesh::node_faces

@@ -8,7 +8,9 @@
 
 namespace sprekk {
 
-/// The least distance between a path and anything else, in edge lengths: a cell must fit in between.
+/// The least distance between a path and anything else, in edge lengths: a cell must fit in between. From itself, and
+/// from its own fracture, a path keeps this distance or a quarter of the length along the fracture in between,
+/// whichever is less.
 inline constexpr double least_gap = 0.5;
 /// An end nearer than this to the outer boundary, in edge lengths, is moved onto the boundary.
 inline constexpr double boundary_snap = 0.01;
