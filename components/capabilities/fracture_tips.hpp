@@ -13,7 +13,8 @@
 namespace sprekk {
 
 /// The state of the coarse level around tips: the reconstruction of boundary data of sec. 3.2 of the paper. Lengths s
-/// (m) along a fracture count from its first point. Tractions and jumps are in global components.
+/// (m) along a fracture count from its first point. Tractions and jumps are in global components. Functions of a place
+/// x throw std::runtime_error outside of the rock.
 class TipSurroundings {
  public:
   virtual ~TipSurroundings() = default;

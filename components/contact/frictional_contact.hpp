@@ -80,7 +80,8 @@ class FrictionalContact : public Component,
                           public LimitsStep {
  public:
   /// `stiffness_factor`: the stiffness of the springs between the walls over that of the rock against a jump of the
-  /// cell (Multiplier).
+  /// cell (Multiplier). Throws InputError where the scene has no fractures, and for friction that is a formula beside
+  /// another law of friction.
   FrictionalContact(const ComponentContext& context, const Options& options,
                     Multiplier multiplier = Multiplier::present, double stiffness_factor = 1);
   ~FrictionalContact() override;

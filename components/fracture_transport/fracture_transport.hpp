@@ -39,6 +39,7 @@ void declare_sides(Spec& spec, Options& options, const Carried& carried);
 /// that enters later brings its own capacity.
 class FractureTransport : public Component, public virtual FractureCarried, public KeepsTotals {
  public:
+  /// Throws InputError for a scene without fractures, and for sides that do not exist.
   FractureTransport(const ComponentContext& context, const Carried& carried, const Options& options);
 
   void evaluate_data(const StepTime& step) override;

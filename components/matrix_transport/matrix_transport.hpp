@@ -45,6 +45,7 @@ class MatrixTransport : public Component,
                         public virtual CarriedWalls,
                         public KeepsTotals {
  public:
+  /// Throws InputError for sides that do not exist, and DataError for a conductivity that is not positive definite.
   MatrixTransport(const ComponentContext& context, const Carried& carried, const Options& options,
                   DiscretizeFlux discretize);
 

@@ -39,6 +39,7 @@ Binding binding(const Control& control, double pressure, double rate, double res
 /// (WellPressures::rate), which knows the cells around the places.
 class LimitedWells : public Component, public PiecewiseSmooth, public WellPressures, public KeepsTotals {
  public:
+  /// Throws InputError where the scene names no well.
   LimitedWells(const ComponentContext& context, const Options& options);
 
   void evaluate_data(const StepTime& step) override;

@@ -34,6 +34,7 @@ namespace sprekk::couplers {
 /// start of the step decays at the rate of the cell, c dt r m_old T: a uniform value stays uniform then, too.
 class Advection : public Coupler, public KeepsState, public FollowsMesh, public KeepsTotals, public CountsAmounts {
  public:
+  /// Throws InputError without a flow that carries something, and for wells that the coupler leaves out.
   Advection(const CouplerContext& context, const Carried& carried, const AdvectionOptions& options,
             MatrixCarried* in_rock, FractureCarried* in_fractures);
   /// What is carried through the walls in a step is the same for both sides.

@@ -20,7 +20,7 @@ namespace sprekk::couplers {
 /// of the cells, in which the nodes of an edge that ends at a tip are at the parts (i/n)^2 of its length from there.
 class PressureNearTips {
  public:
-  /// Keeps a reference to the mesh.
+  /// Keeps a reference to the mesh. Throws std::runtime_error where a pressure is not determined.
   explicit PressureNearTips(const Mesh& mesh);
   ~PressureNearTips();
   /// What the pressure follows from, Pa: means of the cells, pressures at the walls (none where the wall lets nothing

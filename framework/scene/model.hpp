@@ -41,8 +41,8 @@ class Model {
   void prepare(const StepTime& step);
   /// Prepares the first step, and throws InputError where nothing holds some balances of its equations. Collective.
   void require_held();
-  /// Attempts one step from the accepted state: prepares it and runs the schedule. If the step converges, the
-  /// current values are those at its end. The caller accepts or rewinds.
+  /// Attempts one step from the accepted state: prepares it and runs the schedule. If the step converges, the current
+  /// values are those at its end. The caller accepts or rewinds. Throws DataError.
   StepStatus attempt(const StepTime& step);
   void accept();
   void rewind();

@@ -33,7 +33,7 @@ using CouplerType = PartType<CouplerBuilder>;
 class Registry {
  public:
   static Registry& instance();
-  void add(ComponentType type);  ///< throws std::logic_error for a type that exists
+  void add(ComponentType type);  ///< refuses a type that exists (refuse_registration)
   void add(CouplerType type);
   const std::vector<ComponentType>& components() const { return components_; }  ///< sorted by type
   const std::vector<CouplerType>& couplers() const { return couplers_; }

@@ -44,8 +44,8 @@ struct UntilOptions {
 /// The conditions of one iteration: all of `all`, and one of `any` where there are some.
 class ConvergenceCriteria {
  public:
-  /// `fields`: those that are solved inside. Throws InputError for others, and for amounts in another unit than the
-  /// field's.
+  /// `fields`: those that are solved inside. Throws InputError for others, and for amounts that are not positive or in
+  /// another unit than the field's.
   ConvergenceCriteria(const UntilOptions& options, const std::vector<Field*>& fields);
   /// Whether the iteration has converged after a pass. `residual_holds`: whether the coupled residual is below a bound.
   /// `residuals`: of each equation, over its largest term. `before`: the values of all fields before the pass.

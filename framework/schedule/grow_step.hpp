@@ -35,7 +35,8 @@ struct GrowOptions {
 /// changes the mesh between two attempts.
 class GrowStep : public ScheduleStep {
  public:
-  /// Throws InputError when the component has nothing that grows.
+  /// Throws InputError when the component has nothing that grows or no loads of its tips, and when `settle` lacks a
+  /// component that another one needs (Part::dependences).
   GrowStep(const GrowOptions& options, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {}; }

@@ -65,6 +65,7 @@ class FractureFlow : public Component,
                      public NotesStart,
                      public TakesState {
  public:
+  /// Throws InputError for a scene without fractures, and for fractures, sides and places that do not exist.
   FractureFlow(const ComponentContext& context, const Options& options);
 
   /// Cells that have grown start with the pressure of their neighbours; a parameter says whether they start with fluid.
