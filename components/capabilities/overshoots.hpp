@@ -26,7 +26,7 @@ struct FlowStep {
 struct Overshoots {
   long cells = 0;
   double largest = 0;  ///< Pa
-  double range = 0;    ///< of all potentials, Pa
+  double range = 0;    ///< of all potentials, with prescribed ones, Pa
   int cell = none;     ///< where it is largest
 };
 

@@ -47,8 +47,8 @@ class BalanceSums {
   bool are_used_where_coupled = false;
 
   /// The balances whose sums take the place of one of them: those of a quantity, and those of single fields of it that
-  /// have a constant of their own, such as rock and fractures with nearly sealed walls. Arguments as of `sum_of_rows`.
-  /// Collective.
+  /// have a constant of their own, such as the matrix and fractures with nearly sealed walls. Arguments as of
+  /// `sum_of_rows`. Collective.
   std::vector<Balances::Quantity> sums_of(const Assembly& assembly, const std::vector<std::vector<char>>& owned,
                                           const std::vector<int>& first) const;
   /// Makes the system that `with_sums` returns from the `plain` one of an assembly. Collective.

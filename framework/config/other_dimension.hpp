@@ -3,7 +3,8 @@
 
 namespace sprekk {
 
-/// Thrown for input of another dimension (2, 3) than that of this program. The program for that dimension takes over.
+/// Thrown for a scene or results of another dimension (2, 3) than that of this program. The program for that dimension
+/// takes over.
 struct OtherDimension {
   int dimension;
 };

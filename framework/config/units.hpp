@@ -15,8 +15,8 @@ namespace sprekk {
 double parse_quantity(const std::string& text, const std::string& unit, const Origin& where,
                       const std::string& name = "");
 
-/// A number with a unit, or an expression of x, y (m), in space also z, and t (s) with an optional unit behind it: "20
-/// MPa", "(1 + 0.1*sin(pi*x)) MPa", "if(t < 6*h, 0, 5e-9)". Throws InputError for anything malformed.
+/// A number with a unit, or an expression of x, y (m), in space also z, and t (s) with an optional unit behind it:
+/// "20 MPa", "(1 + 0.1*sin(pi*x)) MPa", "if(t < 6*h, 0, 5e-9)". Throws InputError for anything malformed.
 ///
 /// An expression may have + - * / ^, comparisons, && and ||, if(condition, then, else), sin cos tan asin acos atan
 /// atan2 sinh cosh tanh exp log (natural) log10 sqrt abs sign floor ceil pow erf erfc min max, the constants pi and e,

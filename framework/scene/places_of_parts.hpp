@@ -13,7 +13,7 @@
 namespace sprekk {
 
 /// Finds the cells in which a component has its values: fracture cells where all of its fields are on fractures, else
-/// cells of the rock; of these, the ones that it lives in (LivesInPart).
+/// cells of the matrix; of these, the ones that it lives in (LivesInPart).
 class PlacesOfParts {
  public:
   /// All of these must outlive this object, unchanged.

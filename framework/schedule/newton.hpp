@@ -132,8 +132,8 @@ class Newton {
     double time;      ///< s
     std::string told;
   };
-  /// Whether the free values of all parts have lost their stability, also in a step so short that nothing flows.
-  /// Factorizes the derivatives at the present values; those that are factorized afterwards may be of that short step.
+  /// Whether the free values of all parts have lost their stability, also in a step so short that nothing flows. To be
+  /// called when the derivatives at the present values are factorized; afterwards those of that short step may be.
   /// `time`: when, s.
   std::optional<Loss> find_loss(const StepTime& step, double time);
   /// The same with the derivatives that are factorized already.
