@@ -26,9 +26,9 @@ class WellPatch {
   /// The pressure at the point of a constant source in steady flow, with the pressures −ln rho of a line source in the
   /// cells around the patch.
   double steady_pressure() const;
-  /// s times the Laplace transform of the pressure at the point of a source that begins at the time 0, for s =
-  /// c·`decay` with the diffusivity c (`decay` in 1/m^2). The cells around the patch have that of a line source,
-  /// K_0(rho sqrt(decay)).
+  /// s times the Laplace transform, at s = c·`decay`, of the pressure at the point of a source that begins at the time
+  /// 0, with the diffusivity c (`decay` in 1/m^2). The cells around the patch have that of a line source, K_0(rho
+  /// sqrt(decay)).
   double transformed_pressure(double decay) const;
 
  private:
