@@ -36,7 +36,7 @@ void declare_sides(Spec& spec, Options& options, const Carried& carried);
 /// the flux between two cells through the resistances L/(2 k a) of their halves in series. Where more than two cells
 /// meet, each half leads through what fills the crossing to its middle, which stores nothing. What comes through the
 /// walls, and what flowing fluid carries, is added by couplers; a is the aperture at the start of the run, and fluid
-/// that enters later brings its own capacity.
+/// that enters later brings its own capacity. Units of members are those of heat in a plane.
 class FractureTransport : public Component, public virtual FractureCarried, public KeepsTotals {
  public:
   /// Throws InputError for a scene without fractures, and for sides that do not exist.

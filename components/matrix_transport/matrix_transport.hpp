@@ -39,7 +39,7 @@ void declare_sides(Spec& spec, Options& options, const Carried& carried, const s
 /// step (J/m or kg/m; in space J or kg):
 ///   C V (T − T_old) + dt (sum of the conducted fluxes out of it) + dt r C V T − dt H V = 0,  flux = −k grad T,
 /// with the capacity C of rock and what is in its pores at the start, the rate r of decay, and the source H. What
-/// flowing fluid carries is added by a coupler.
+/// flowing fluid carries is added by a coupler. Units of members are those of heat in a plane.
 class MatrixTransport : public Component,
                         public virtual MatrixCarried,
                         public virtual CarriedWalls,

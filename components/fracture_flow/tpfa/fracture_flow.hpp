@@ -38,11 +38,11 @@ namespace sprekk::fracture_flow {
 /// in space m^3, with the area of the cell for L):
 ///   L (rho a − rho_old a_old)/rho_mean + dt (sum of Q out of it) − dt q = 0,
 /// the change of the mass of fluid over the mean density of the step (stored_fluid.hpp; with `cavitation`,
-/// cavitation.cpp, a part of a is empty),
-/// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series
-/// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
-/// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
-/// pressures, and the flux out of one cell enters the next one to the bit. Properties are those at the end of the step.
+/// cavitation.cpp, a part of a is empty), and each row of Q is Q = C (p_first − p_second), C from the resistances of
+/// the half cells in series (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an
+/// unknown a fracture may conduct 1e12 times better than rock without loss of digits: Q is not computed from a
+/// difference of nearly equal pressures, and the flux out of one cell enters the next one to the bit. Properties are
+/// those at the end of the step. Rates and volumes of members have the units of a plane.
 ///
 /// Where the transmissivity is a formula of the state, the hydraulic aperture of a half cell follows from the aperture
 /// there, and from what else the formula names in its cell. `by_aperture` in lists and vectors of derivatives then has

@@ -24,7 +24,7 @@ struct Bernoulli {
 /// second order (HeedsStages).
 enum class EnteringDensity { of_step, at_end };
 
-/// The volume that a cell stores in a step, for each metre of its length (m), and its derivatives.
+/// The volume that a cell stores in a step over its length, in space over its area (m), and its derivatives.
 struct StoredFluid {
   double volume, by_aperture, by_pressure;
 };
