@@ -38,7 +38,7 @@ namespace {
 /// not iterated counts every change of volume once, if late. One that is iterated counts the volume with which each
 /// balance holds: what passes leave of it is counted in the next step.
 ///
-/// One way, the first of these terms is left out, and nothing of the rock enters the balance of the fluid.
+/// With `one_way` the first of these terms is left out, and nothing of the rock enters the balance of the fluid.
 ///
 /// alpha and the compressibility of the grains are taken at the end of the step. They multiply changes of the state: a
 /// change of alpha or of the compressibility alone moves no fluid.

@@ -14,7 +14,7 @@ struct BiotOptions {
   Data biot_coefficient;
   double fixed_stress_factor = 1;
   std::string fixed_stress_modulus = "bulk";
-  std::optional<double> fixed_stress_value;
+  std::optional<double> fixed_stress_value;  ///< 1/Pa
   Origin modulus_origin;
   bool one_way = false;
   Spec spec() {

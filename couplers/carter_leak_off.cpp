@@ -84,7 +84,7 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
 
   void count_amounts_from_here(const SettledFields&) override { begin(); }
 
-  /// Fluid comes to cells that have grown in the step in which the mesh has them first.
+  /// Cells that have grown become wet in the first step in which they are in the mesh.
   void carry_over(const Part&, const MeshChange& change) override {
     if (change.is_at_start) return;
     const Vector covered = covered_parts(change, mesh_);

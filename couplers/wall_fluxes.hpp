@@ -29,8 +29,9 @@ struct WallFluxes {
   Operator outflow;       ///< fracture cells × walls: rates out of the fracture cells by fluxes
 };
 
-/// What the matrix conducts in front of each wall, one over the derivative of `trace` by the flux; 1 where it does not
-/// resist. `trace`: the pressure or temperature at the walls. Collective.
+/// The conductance of the matrix in front of each wall, one over the derivative of `trace` by the flux: m/(Pa s), or
+/// W/(m^2 K) for heat; 1 where the matrix does not resist. `trace`: the pressure or temperature at the walls.
+/// Collective.
 inline Vector conductance_in_front(const Mesh& mesh, const LinearExpression& trace, const Field& flux) {
   SPREKK_EXPECT(flux.size() == mesh.wall_count(), flux.name(), flux.size(), mesh.wall_count());
   Vector conductance = Vector::Ones(mesh.wall_count());

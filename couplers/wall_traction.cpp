@@ -139,8 +139,8 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
 
   /// Notes suction, a pressure below zero. It pulls the walls together whatever the reference of pressures is: the wall
   /// traction contains the pressure itself. Viscous fluid that fills a fracture up to its tip has no lowest pressure
-  /// there (Spence and Sharp, Proc. R. Soc. A 400 (1985) 289), so that the cell at a tip has the less, the smaller it
-  /// is.
+  /// there (Spence and Sharp, Proc. R. Soc. A 400 (1985) 289), so the smaller the cell at a tip is, the lower is its
+  /// pressure.
   void note_step(Notes& notes, const StepTime&) const override {
     if (contacts_.empty()) note_overlaps(notes);
     if (!fluid_) return;
@@ -184,7 +184,8 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     }
   }
 
-  /// With several contacts, those of all fractures together; without any, the jump that the walls have.
+  /// With several contacts, the jumps and contact tractions of all fractures together; without any, the jumps of the
+  /// walls.
   void output(std::vector<OutputField>& fields) const override {
     if (contacts_.empty()) fields.push_back({name() + ".jump", "m", Location::fracture_cell, dimension, free_jump()});
     if (!contacts_.are_several()) return;

@@ -36,7 +36,7 @@ inline bool is_finite(const SparseMatrix& matrix) {
   return true;
 }
 
-/// Of the larger of two values that ought to be equal: how far rounding may take them apart, with much room.
+/// How far rounding may take values apart that ought to be equal, of the larger of the two; with much room.
 inline constexpr double nearly_equal = 1e-9;
 
 /// Has length one.

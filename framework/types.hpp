@@ -18,7 +18,7 @@ using Triplet = Eigen::Triplet<double, int>;
 
 inline constexpr int dimension = SPREKK_DIMENSION;  ///< of the matrix; fractures have one less
 static_assert(dimension == 2 || dimension == 3);
-/// Names of the coordinates: x and y, in space also z. Gravity points against the last one.
+/// Names of the coordinates: x and y, in space also z. The last one points up.
 inline constexpr std::array<const char*, dimension> axis_names = [] {
   std::array<const char*, dimension> names{"x", "y"};
   if (dimension == 3) names.back() = "z";

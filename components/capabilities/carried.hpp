@@ -24,10 +24,11 @@ struct Carried {
   std::string capacity;       ///< what holds it: "heat capacity"
   std::string capacity_unit;  ///< amount_unit over unit
   std::string example;        ///< of a value, as a scene writes it
-  std::string advice;         ///< what to give where fluid leaves that a cell has not; {} is the component
+  std::string advice;         ///< what to give where more fluid leaves a cell than it has; {} is the component
   const char* in_formulas;    ///< the name of the value in formulas of the flow; nullptr where they may not use it
   Range range;                ///< of values
-  /// The value of fluid from outside of which the scene says nothing; without it, that of the cell which it enters.
+  /// The value of fluid from outside for which the scene gives none; without it, such fluid has the value of the cell
+  /// that it enters.
   std::optional<double> of_unknown_fluid;
   bool has_absolute_zero;  ///< whether values near zero are a mistake (cold.hpp)
 };
@@ -44,14 +45,14 @@ class MatrixCarried {
   virtual const Carried& carried() const = 0;
   /// One a cell. Its equation is the amount that the cell stores during the step, less what entered.
   virtual Field& value() = 0;
-  /// What each cell holds per unit of the value without the fluid that has entered or left it since the start; empty
-  /// where the value is given and nothing is stored.
+  /// What each cell holds per unit of the value (Carried::capacity_unit), without the fluid that has entered or left it
+  /// since the start; empty where the value is given and nothing is stored.
   virtual const Vector& capacity() const = 0;
   /// One a cell.
   virtual const Vector& initial_value() const = 0;
   /// The value that is prescribed at the centre of an outer face in this step.
   virtual std::optional<double> side_value(int face) const = 0;
-  /// The part of what each cell holds that decays in a time, 1/s; empty where nothing does.
+  /// The rate of decay of what each cell holds, 1/s, one a cell; empty where nothing decays.
   virtual const Vector& decay() const = 0;
   /// Adds to what each cell conducts by itself, until the next call. In Part::evaluate_data, or between two solves.
   virtual void add_conductivity(std::vector<Tensor> added) = 0;
@@ -61,9 +62,9 @@ class MatrixCarried {
 class CarriedWalls {
  public:
   virtual ~CarriedWalls() = default;
-  /// Input: what is conducted through each wall, from the fracture into the matrix, per area.
+  /// Input: what is conducted through each wall, from the fracture into the matrix, per area (Carried::flux_unit).
   virtual Field& wall_flux() = 0;
-  /// At each wall.
+  /// The value at each wall.
   virtual const LinearExpression& wall_value() const = 0;
 };
 
@@ -78,7 +79,8 @@ class FractureCarried {
   virtual const Vector& capacity() const = 0;
   /// The value that is prescribed in this step where a fracture ends on a side, at a ridge.
   virtual std::optional<double> end_value(int point) const = 0;
-  /// How well the fracture conducts between its middle and each of its walls, per area.
+  /// The conductance between the middle of the fracture and each wall, per area: Carried::flux_unit over the unit of
+  /// the value, one a wall.
   virtual const Vector& wall_conductance() const = 0;
   /// The thickness of what stores and conducts at the start, m, one a fracture cell; nullptr where there is none.
   virtual const Vector* thickness() const { return nullptr; }

@@ -13,7 +13,7 @@ namespace sprekk {
 /// Fluid that enters from outside of rock and fractures at a named place of the scene (or with a negative rate leaves).
 struct FluidSource {
   std::string name;
-  std::vector<std::pair<int, double>> rates;  ///< cells, and m^2/s
+  std::vector<std::pair<int, double>> rates;  ///< cells, and m^2/s (in space m^3/s)
 };
 
 /// A named place whose pressure is prescribed: what enters there makes up for what flows away.
@@ -22,8 +22,7 @@ struct FluidReservoir {
   std::vector<int> cells;
 };
 
-/// Whether fluid that enters at a point may be shared among two cells: in rock that conducts otherwise it might not be
-/// able to flow away.
+/// Whether fluid that enters at a point may be shared among two cells with these permeabilities, or mobilities.
 inline bool conduct_alike(const Tensor& one, const Tensor& other) {
   constexpr double most = 2;  // of permeabilities: fluid that enters less permeable rock would be trapped there
   const double ratio = other.trace() / one.trace();
@@ -35,11 +34,11 @@ class MatrixFluxes {
  public:
   static constexpr const char* promise = "gives the fluxes of fluid in the matrix";
   virtual ~MatrixFluxes() = default;
-  /// The present flux through every face, out of face_cells[f][0], integrated over it, m^2/s; right on the faces of
-  /// the cells that the process owns.
+  /// The present flux through every face, out of face_cells[f][0], integrated over it, m^2/s (in space m^3/s); right on
+  /// the faces of the cells that the process owns.
   virtual const Vector& face_fluxes() const = 0;
-  /// The largest sum of the absolute values of the products that make up a flux, m^2/s. The round-off of fluxes is
-  /// relative to this number.
+  /// The largest sum of the absolute values of the products that make up a flux, m^2/s (in space m^3/s). The round-off
+  /// of fluxes is relative to this number.
   virtual double round_off_base_of_fluxes() const = 0;
   /// A derivative of face_fluxes: faces × values of the field. It stays until the next step begins.
   struct Derivative {
@@ -61,7 +60,7 @@ class FractureFluxes {
  public:
   static constexpr const char* promise = "gives the fluxes of fluid along the fractures";
   virtual ~FractureFluxes() = default;
-  /// The flux through every point of the fractures, from its first to its second cell, or out of its only cell, m^2/s.
+  /// The flux through every ridge, from its first to its second cell, or out of its only cell, m^2/s (in space m^3/s).
   virtual const Field& flux() const = 0;
   /// What enters fracture cells in this step, without those of reservoirs.
   virtual std::vector<FluidSource> fluid_sources() const = 0;

@@ -12,14 +12,15 @@
 
 namespace sprekk {
 
-// Written for Darcy flow: pressure p (Pa), mobility (m^2/(Pa s)), flux (m^2/s). Conduction of heat has the same
-// operators: temperature (K), conductivity (W/(m K)), heat flux (W/m).
+// Written for Darcy flow in a plane: pressure p (Pa), mobility (m^2/(Pa s)), flux (m^2/s; in space m^3/s). Conduction
+// of heat has the same operators: temperature (K), conductivity (W/(m K)), heat flux (W/m; in space W).
 
 /// What is prescribed on a face: nothing on inner faces, the pressure, or the flux, as on walls of fractures.
 enum class FlowCondition { none, pressure, flux };
 
-/// What a discretization has in addition if the pressures h of inner faces (one for each face, Pa; those of other faces
-/// are not used by anything) are unknowns beside those of the cells. If they are not, the matrices have no rows.
+/// What a discretization has in addition if the pressures h of inner faces are unknowns beside those of the cells.
+/// There is one h for each face (Pa); those of other faces are not used. Without such unknowns the matrices have no
+/// rows.
 ///   flux through every face (m^2/s): … + flux h
 ///   pressure at the centre of every boundary and wall face (Pa): … + trace h
 ///   the equations of h, one for each face (m^2/s): continuity_cell p + continuity_face h + continuity_boundary b = 0
@@ -55,14 +56,18 @@ struct OneSidedFluxOperators {
   }
 };
 
-/// Fluxes and traces as linear functions of pressures p (one for each cell, Pa), boundary values b (one for each face:
-/// the pressure at the face centre on `pressure` faces, the outward flux integrated over the face, m^2/s, on `flux`
-/// faces, ignored inside) and changes s of the prescribed pressure along `pressure` faces, in the directions of each
-/// (AlongFace; those of a face follow one another; Pa, ignored elsewhere):
-///   flux through every face, out of face_cells[f][0], integrated over it (m^2/s):
-///     flux_cell p + flux_boundary b + flux_change s
-///   pressure at the centre of every boundary and wall face (Pa):
-///     trace_cell p + trace_boundary b + trace_change s
+/// Fluxes and traces as linear functions of
+/// - pressures p, one for each cell, Pa;
+/// - boundary values b, one for each face: the pressure at the face centre (Pa) on `pressure` faces, the outward flux
+///   integrated over the face (m^2/s) on `flux` faces; ignored inside;
+/// - changes s of the prescribed pressure along `pressure` faces, in the directions of each (AlongFace; those of a
+///   face follow one another), Pa; ignored elsewhere.
+///
+/// They are
+/// - the flux through every face, out of face_cells[f][0], integrated over it (m^2/s):
+///   flux_cell p + flux_boundary b + flux_change s;
+/// - the pressure at the centre of every boundary and wall face (Pa):
+///   trace_cell p + trace_boundary b + trace_change s.
 struct FluxOperators {
   SparseMatrix flux_cell;       ///< faces × cells
   SparseMatrix flux_boundary;   ///< faces × faces

@@ -32,8 +32,8 @@ class FractureContact {
   /// positive.
   virtual Field& jump() = 0;
   /// The stiffness of the rock against a jump of one cell, Pa/m, (normal, tangential) of each fracture cell. It scales
-  /// the method of solution, on which the solution does not depend, and tells sliding() which slip and tractions are
-  /// small.
+  /// Newton's method, which does not change the solution (and the springs of a penalty method, which do), and tells
+  /// sliding() which slip and tractions are small.
   virtual void set_wall_stiffness(const Vector& stiffness) = 0;
   /// Whether the law depends on the shear modulus of the rock. If it does, rock without one is refused.
   virtual bool needs_shear_modulus() const { return false; }

@@ -17,7 +17,7 @@ class FractureFluid {
   static constexpr const char* promise = "determines the pressure in the fractures";
   virtual ~FractureFluid() = default;
   /// The pressure of each fracture cell, Pa. Its equation is the volume that the cell stores during the step, less the
-  /// volume that entered (m^2).
+  /// volume that entered (m^2, in space m^3).
   virtual Field& pressure() = 0;
   /// Input: the aperture of each fracture cell, m; the initial aperture a0 (below Eq. 8 of the paper) unless a coupler
   /// determines it.
@@ -38,15 +38,16 @@ class FractureFluid {
   /// The viscosity in a fracture cell whose transmissivity follows from its opening (w^3/(12 mu) where it is wide),
   /// Pa s; 0 where the transmissivity does not depend on the opening.
   virtual double viscosity_between_walls(int cell) const = 0;
-  /// How well a fracture cell conducts along itself from end to end, m^2/(Pa s), at the current aperture. To be used
-  /// after Part::evaluate_data of all parts.
+  /// The conductance of a fracture cell at the current aperture: in a plane that from end to end, m^2/(Pa s); in space
+  /// transmissivity over viscosity, m^3/(Pa s). To be used after Part::evaluate_data of all parts.
   virtual double conductance(int cell) const = 0;
   /// The cells among which fluid that enters at a point of a fracture cell is shared, and their shares, which add up to
   /// 1: the flow from the point to the centres along fractures, at the current apertures. The shares of a step are
   /// those at its start: to be called by Part::begin_step.
   virtual std::vector<std::pair<int, double>> shares_at(int cell, const Point& at) const = 0;
-  /// What a rate at the point adds to the mean of these cells' pressures, with their shares, for the pressure at the
-  /// point, Pa s/m^2, at the current aperture, and its derivatives by the apertures of cells.
+  /// By how much the pressure at the point exceeds the mean of these cells' pressures, weighted by their shares, for
+  /// each unit of a rate at the point: Pa s/m^2 (in space Pa s/m^3), at the current aperture, with derivatives by the
+  /// apertures of cells.
   struct Rise {
     double value = 0;
     std::vector<std::pair<int, double>> by_aperture = {};
@@ -64,7 +65,7 @@ class FractureFluid {
   virtual void accept_rock_fluid(MatrixFluid& rock_fluid, const MatrixWalls& walls) = 0;
   virtual MatrixFluid* rock_fluid() const = 0;
   virtual const MatrixWalls* rock_walls() const = 0;
-  /// Where a point is as shares_at and rise_at take it: its centre beyond the last centre before an end.
+  /// The place that shares_at and rise_at use for a point, m: beyond the last centre before an end it is that centre.
   virtual Point point_at(int cell, const Point& at) const = 0;
 };
 

@@ -13,7 +13,8 @@
 namespace sprekk {
 
 /// The state of the coarse level around tips: the reconstruction of boundary data of sec. 3.2 of the paper. Lengths s
-/// (m) along a fracture count from its first point. Tractions and jumps are in global components.
+/// (m) along a fracture count from its first point. Tractions and jumps are in global components. Functions of a place
+/// x throw std::runtime_error outside of the rock.
 class TipSurroundings {
  public:
   virtual ~TipSurroundings() = default;
@@ -47,7 +48,7 @@ class TipSurroundings {
   /// each place. Empty where there is none. As for stress_offsets.
   using BodyForces = std::function<Eigen::Matrix<double, dimension, Eigen::Dynamic>()>;
   virtual BodyForces body_forces(const std::vector<Point>& places) const = 0;
-  /// Whether the walls are held by their jump (Eq. 15 of the paper) or by their traction.
+  /// Whether walls of the fine level have a given jump (Eq. 15 of the paper); otherwise they have a given traction.
   virtual bool gives_jumps() const = 0;
   virtual Point wall_traction(int fracture, double s) const = 0;  ///< Pa, n·sigma of the plus wall, fluid included
   /// Walls that slide, or are open, within their cell, in global components. Where they touch, g·[u] = opening, and the
@@ -58,10 +59,10 @@ class TipSurroundings {
     Point gap;       ///< g, unit along the normal
     double opening;  ///< m
   };
-  /// Nothing where the walls stick, have grown, or where nothing tells their law.
+  /// Nothing where the walls stick or have grown, and where their law is not known.
   virtual std::optional<Sliding> sliding(int /*fracture*/, double /*s*/) const { return std::nullopt; }
   virtual Point wall_jump(int fracture, double s) const = 0;  ///< m, u(minus) − u(plus)
-  /// Why the jumps next to tips have an error that does not vanish on finer meshes; empty where they are right.
+  /// Why the jumps next to tips have an error that does not vanish on finer meshes; empty where they converge.
   virtual std::string flaw_of_jumps() const { return {}; }
   /// The fluid pressure in the fracture cell at an end, Pa; 0 without a component for it.
   virtual double fluid_pressure(int fracture, bool at_end) const = 0;

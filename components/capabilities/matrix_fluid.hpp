@@ -23,7 +23,7 @@ class MatrixFluid {
   static constexpr const char* promise = "determines the pressure of the matrix";
   virtual ~MatrixFluid() = default;
   /// The pressure of each cell, Pa. Its equation is the volume of fluid that the cell stores during the step, less the
-  /// volume that entered (m^2).
+  /// volume that entered (m^2, in space m^3).
   virtual Field& pressure() = 0;
   /// The initial pressure of each cell, Pa: the pressure of the reference state.
   virtual const Vector& initial_pressure() const = 0;

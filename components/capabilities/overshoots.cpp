@@ -10,7 +10,7 @@
 namespace sprekk {
 namespace {
 
-constexpr double least_share_of_range = 0.01;  // of the range of what is given: smaller overshoots are not noted
+constexpr double least_share_of_range = 0.01;  // of Overshoots::range: smaller overshoots are not noted
 // Of the base of potentials: ten times the residual that Newton's method leaves.
 constexpr double left_by_solvers = 1e-9;
 /// Inflow other than through faces is a source if it exceeds this share of all fluxes and of the storage.

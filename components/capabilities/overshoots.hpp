@@ -7,8 +7,9 @@
 
 namespace sprekk {
 
-/// The state of the flow at the end of a step. A potential is a pressure minus that of a fluid column at rest. For
-/// conducted heat, potentials are temperatures in K, fluxes are in W/m, and storage is in J/(m K).
+/// The state of the flow at the end of a step. A potential is a pressure minus that of a fluid column at rest. Units
+/// are those of a fluid in a plane. For conducted heat, potentials are temperatures in K, fluxes are in W/m, and
+/// capacities are in J/(m K).
 struct FlowStep {
   const Mesh& mesh;
   const std::vector<FlowCondition>& conditions;
@@ -25,7 +26,7 @@ struct FlowStep {
 struct Overshoots {
   long cells = 0;
   double largest = 0;  ///< Pa
-  double range = 0;    ///< of all potentials, Pa
+  double range = 0;    ///< of all potentials, with prescribed ones, Pa
   int cell = none;     ///< where it is largest
 };
 

@@ -19,7 +19,7 @@ class PoroelasticRock {
   virtual void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) = 0;
   /// Replaces the alpha of a pressure that accept_pore_pressure was called with. To be called by Part::evaluate_data.
   virtual void change_alpha(const Field& pressure, const Vector& alpha) = 0;
-  /// div u integrated over each cell (m^2).
+  /// div u integrated over each cell (m^2, in space m^3).
   virtual const LinearExpression& volume_change() const = 0;
   /// The largest prescribed stress, on sides and at the start, Pa; infinite where weight or prescribed displacements
   /// load the rock as well. To be called during a step.
@@ -41,8 +41,7 @@ class RockWalls {
   /// The jumps of walls while the displacement is zero, m, as displacement_jump(): none unless this is called, while
   /// the scene is built or before the first step.
   virtual void count_jumps_from(const Vector& jumps) = 0;
-  /// Why the jumps of the cells at a tip have an error that does not vanish on finer meshes; empty where they are
-  /// right.
+  /// Why the jumps of the cells at a tip have an error that does not vanish on finer meshes; empty where they converge.
   virtual std::string flaw_of_jumps() const { return {}; }
   /// By how much the traction on a fracture cell closes its jump while the unknown displacements stay, m/Pa, (normal,
   /// tangential) of each fracture cell. Where the displacements of walls are unknowns: by how much, if only those of

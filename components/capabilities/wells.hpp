@@ -13,14 +13,15 @@ namespace sprekk {
 
 /// A place where a well is open to what is around it.
 struct WellPlace {
-  int well = 0;      ///< of which well
+  int well = 0;      ///< index of the well
   std::string name;  ///< of the well in the scene, with that of the place where it has several
   Origin origin;
   Point at = Point::Zero();
   std::optional<std::string> fracture;  ///< open to this fracture, and else to the rock
   double radius = 0;                    ///< m
   double skin = 0;
-  std::optional<double> index;  ///< m^2/(Pa s), rate over difference of pressure; absent where it follows from the mesh
+  /// Rate over difference of pressure, m^2/(Pa s), in space m^3/(Pa s); absent where it follows from the mesh.
+  std::optional<double> index;
 };
 
 /// What surrounds a place: cells of the rock or of fractures, with their shares of the rate there.
@@ -36,17 +37,17 @@ class WellPressures {
   virtual ~WellPressures() = default;
   /// The pressure in each well, Pa.
   virtual Field& pressure() = 0;
-  /// Input: the rate out of the well at each place, m^2/s.
+  /// Input: the rate out of the well at each place, m^2/s (in space m^3/s).
   virtual Field& rate() = 0;
   virtual const Field& rate() const = 0;
   virtual const std::vector<WellPlace>& places() const = 0;
   virtual const std::vector<std::string>& names() const = 0;
   /// Whether the rate that a well is to have in this step injects fluid.
   virtual bool is_to_inject(int well) const = 0;
-  /// The coupler that determines the rates tells what surrounds each place, while the scene is built, and again where
-  /// that changes, in Part::begin_step.
+  /// Takes what surrounds each place. To be called by the coupler that determines the rates, while the scene is built,
+  /// and in Part::begin_step where it has changed.
   virtual void accept_surroundings(std::vector<AroundWell> around) = 0;
-  /// What accept_surroundings was given; empty before that, and couplers are built in any order.
+  /// What accept_surroundings was given. Empty before that: couplers are built in any order.
   virtual const std::vector<AroundWell>& surroundings() const = 0;
   /// The pressure around the wells at the start, Pa, one a place, from which the pressure of wells begins. Throws
   /// InputError for limits that contradict it.

@@ -39,8 +39,8 @@ struct Options;
 ///   f_t = projection of f_t + c_t d onto [−b, b],  b = −mu_s min(0, f_n + c_n h)   (Eq. 3 of the paper)
 /// which hold for any c > 0 exactly when the conditions do (Alart and Curnier 1991; Hüeber, Stadler, Wohlmuth 2008),
 /// and divided by c (so that every residual is a length), are solved by a semismooth Newton method. f acts on the plus
-/// wall, [u] = u(minus) − u(plus), so friction makes f_t point along the slip: power −f·[u]' ≤ 0 is drawn from the
-/// walls. (The paper's Eq. 3 has the opposite sign.)
+/// wall, [u] = u(minus) − u(plus), so friction makes f_t point along the slip: the power −f·[u]' that it supplies to
+/// the walls is not positive. (The paper's Eq. 3 has the opposite sign.)
 ///
 /// With laws (components/contact/laws) the same equations hold for the gap
 ///   h = [u]_n − g(|[u]_t|) + c(−f_n),  g(s) = min(s, s_max) tan psi,
@@ -52,8 +52,8 @@ struct Options;
 ///   f_t = tau(|d|/dt, theta, −min(0, f_n + c_n h)) d/|d| with f_t + c_t d held at the trial,
 /// which is smooth where walls touch: there is no cone, and no state of sticking. `State` is then `slip` above V_0.
 ///
-/// mu_s and psi are those of the end of the step. The gap knows the slip and not its history: where psi falls, a
-/// fracture that has slipped closes.
+/// mu_s and psi are those of the end of the step. The gap depends on the present slip and psi, not on their history:
+/// where psi falls, a fracture that has slipped closes.
 ///
 /// With Options::fractures the contact is on these fractures only. Elsewhere f = 0, the coupler makes [u] = 0, and
 /// parameters are not asked for.
@@ -80,7 +80,8 @@ class FrictionalContact : public Component,
                           public LimitsStep {
  public:
   /// `stiffness_factor`: the stiffness of the springs between the walls over that of the rock against a jump of the
-  /// cell (Multiplier).
+  /// cell (Multiplier). Throws InputError where the scene has no fractures, and for friction that is a formula beside
+  /// another law of friction.
   FrictionalContact(const ComponentContext& context, const Options& options,
                     Multiplier multiplier = Multiplier::present, double stiffness_factor = 1);
   ~FrictionalContact() override;
@@ -123,7 +124,7 @@ class FrictionalContact : public Component,
   void accepted() override;
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
-  /// Walls that weaken and have slipped or opened in this step (runaway.cpp).
+  /// Walls that lose strength, and have slipped or opened in this step (runaway.cpp).
   Softened softened() const override;
   /// The slip of cells that slip, and the opening of cells that part against their tensile strength.
   FreeValues free_values() const override;
@@ -184,20 +185,20 @@ class FrictionalContact : public Component,
   void evaluate_formulas();
   /// The coefficient of friction by this law. Throws DataError where it is negative or not finite.
   OfWalls friction_by_law(int cell, const FrictionLaw& law, const WallState& state) const;
-  /// What the walls hold in this state, with derivatives.
+  /// The strength of the walls in this state, with derivatives.
   Strength strength(int cell, const WallState& state) const;
-  /// With the path at the end of the step, and the slip in the step.
+  /// The state of the walls with this path (m) at the end of the step, this slip in the step and this pressure (Pa).
   WallState wall_state(int cell, double path, const SlipOfStep& step, double pressure) const;
-  /// That at the start of the step, under this normal traction.
+  /// The strength at the start of the step, under this normal traction (Pa).
   Strength strength_before(int cell, double normal_traction) const;
   bool may_weaken() const { return weakening_.is_on() || formulas_->may_weaken(); }
-  /// The slip over which the walls lose all that they hold now, m.
+  /// The slip over which the walls lose all of their present strength, m.
   double distance_of_loss(const Strength& strength, double normal_traction) const;
   double gap(int cell, const Vector& traction, const Vector& jump) const;
   double pressure_beside(int cell) const;
-  /// By how much the traction exceeds what the walls hold, Pa; negative where they hold it.
+  /// By how much the traction exceeds the strength of the walls, Pa; negative below it.
   double excess(int cell) const;
-  /// mu_d; that of the start where friction does not weaken.
+  /// mu_d; mu_s where friction does not weaken.
   double dynamic_friction(int cell) const;
   /// The path q of slip and opening at the end of the step, m, with the gap of the cell then and the size of the slip
   /// in the step.
@@ -245,9 +246,9 @@ class FrictionalContact : public Component,
   std::vector<char> kept_;                   ///< stick as long as they touch; empty for none
   std::vector<BackSlip> back_slip_;          ///< empty before the first update of a step
   double slip_at_start_ = 0;                 ///< m, the largest, of the state that was settled
-  std::string passed_;                       ///< what is told of a loss of stability that this step has passed
+  std::string passed_;                       ///< the text on a loss of stability that this step has passed
   Vector shear_modulus_;                     ///< Pa, of the rock beside each cell; empty where it is not known
-  bool is_solved_for_ = false;               ///< whether the solve that goes on determines the traction
+  bool is_solved_for_ = false;               ///< whether the present solve determines the traction
   std::array<std::uint64_t, 2> followed_{};  ///< last versions of traction and jump in observe_iterate
   double dt_ = 0;                            ///< s, of the step
   bool is_without_shortcuts_ = false;        ///< after Newton's method has failed

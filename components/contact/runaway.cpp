@@ -16,7 +16,7 @@ namespace sprekk::contact {
 
 namespace {
 
-/// The cells of one fracture that hang together with a cell and move, itself among them, ascending.
+/// The connected cells of one fracture around a cell that move, itself among them, ascending.
 std::vector<int> nucleus_around(const Mesh& mesh, int cell, const std::vector<char>& moves) {
   std::vector<int> nucleus{cell};
   std::vector<char> is_in(moves.size(), 0);

@@ -1,4 +1,4 @@
-// What walls that have slipped by themselves have done together.
+// Moment, size, stress drop and place of a slip event.
 #pragma once
 
 #include <vector>

@@ -52,7 +52,8 @@ class SlipEvents {
   void accept(const Step& step);
   static void report(const std::string& name, const Event& event, std::vector<Quantity>& quantities);
 
-  /// Save and restore the state that has no place on the mesh.
+  /// Save and restore the state that has no place on the mesh. `restore` throws InputError where this is missing or
+  /// damaged.
   void save(const std::string& name, std::map<std::string, Vector>& state) const;
   void restore(const std::string& name, const std::map<std::string, Vector>& state);
   void carry_over(const SlipEvents& before) { latest_ = before.latest_; }

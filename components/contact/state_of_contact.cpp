@@ -1,4 +1,4 @@
-// What the contact tells of its state: columns, fields for pictures, notes.
+// What the contact reports of its state: columns, fields for pictures, notes.
 #include <fmt/format.h>
 
 #include <algorithm>

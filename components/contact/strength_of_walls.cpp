@@ -1,4 +1,5 @@
-// What walls hold, how far slip opens them and pressure closes them: by numbers, built-in laws, or formulas.
+// The strength of walls, their opening by slip and their closure under pressure: by numbers, built-in laws, or
+// formulas.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

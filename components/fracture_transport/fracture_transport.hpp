@@ -17,11 +17,11 @@ namespace sprekk::fracture_transport {
 
 /// Parameters of a balance in fractures.
 struct Options {
-  Data aperture;      ///< m
-  Data conductivity;  ///< heat: W/(m K); tracer: the diffusion, m^2/s
-  Data capacity;      ///< heat: J/(m^3 K); tracer: the retardation factor
-  Data initial_value;
-  Data decay;  ///< 1/s
+  Data aperture;       ///< m
+  Data conductivity;   ///< heat: W/(m K); tracer: the diffusion, m^2/s
+  Data capacity;       ///< heat: J/(m^3 K); tracer: the retardation factor
+  Data initial_value;  ///< in Carried::unit
+  Data decay;          ///< 1/s
   std::map<std::string, Data> boundary;
   std::map<std::string, Origin> boundary_origins;
   Crossings crossings;
@@ -31,14 +31,15 @@ struct Options {
 void declare_sides(Spec& spec, Options& options, const Carried& carried);
 
 /// Unknown: the value T (temperature, concentration) of every fracture cell, a mean across the aperture a. Each row
-/// balances the amount in it over the step (J/m, kg/m):
+/// balances the amount in one cell over the step (J/m or kg/m; in space J or kg, with the area of the cell for L):
 ///   C a L (T − T_old) + dt (sum of the conducted fluxes out of it) + dt r C a L T = 0,
 /// the flux between two cells through the resistances L/(2 k a) of their halves in series. Where more than two cells
 /// meet, each half leads through what fills the crossing to its middle, which stores nothing. What comes through the
 /// walls, and what flowing fluid carries, is added by couplers; a is the aperture at the start of the run, and fluid
-/// that enters later brings its own capacity.
+/// that enters later brings its own capacity. Units of members are those of heat in a plane.
 class FractureTransport : public Component, public virtual FractureCarried, public KeepsTotals {
  public:
+  /// Throws InputError for a scene without fractures, and for sides that do not exist.
   FractureTransport(const ComponentContext& context, const Carried& carried, const Options& options);
 
   void evaluate_data(const StepTime& step) override;

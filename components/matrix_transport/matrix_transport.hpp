@@ -18,7 +18,7 @@ namespace sprekk::matrix_transport {
 struct SideCondition {
   Origin origin;
   std::optional<Data> value;
-  std::optional<Data> flux;  ///< out of the rock, per area
+  std::optional<Data> flux;  ///< out of the rock, per area (Carried::flux_unit)
 };
 
 /// Parameters of a balance in the matrix.
@@ -26,9 +26,9 @@ struct Options {
   TensorData conductivity;  ///< heat: W/(m K); tracer: the diffusion in the pores, m^2/s
   Data capacity;            ///< heat: J/(m^3 K); tracer: the retardation factor
   Data porosity = 1;        ///< a factor of both
-  Data initial_value;
-  Data source;  ///< an amount per volume and time
-  Data decay;   ///< 1/s
+  Data initial_value;       ///< in Carried::unit
+  Data source;              ///< an amount per volume and time
+  Data decay;               ///< 1/s
   std::map<std::string, SideCondition> boundary;
 };
 
@@ -36,15 +36,16 @@ struct Options {
 void declare_sides(Spec& spec, Options& options, const Carried& carried, const std::string& flux_key);
 
 /// Unknown: the value T (temperature, concentration) of every cell. Each row balances the amount in one cell over the
-/// step (J/m, kg/m):
+/// step (J/m or kg/m; in space J or kg):
 ///   C V (T − T_old) + dt (sum of the conducted fluxes out of it) + dt r C V T − dt H V = 0,  flux = −k grad T,
-/// with the capacity C of rock and what is in its pores at the start, and the rate r of decay. What flowing fluid
-/// carries is added by a coupler.
+/// with the capacity C of rock and what is in its pores at the start, the rate r of decay, and the source H. What
+/// flowing fluid carries is added by a coupler. Units of members are those of heat in a plane.
 class MatrixTransport : public Component,
                         public virtual MatrixCarried,
                         public virtual CarriedWalls,
                         public KeepsTotals {
  public:
+  /// Throws InputError for sides that do not exist, and DataError for a conductivity that is not positive definite.
   MatrixTransport(const ComponentContext& context, const Carried& carried, const Options& options,
                   DiscretizeFlux discretize);
 

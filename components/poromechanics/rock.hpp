@@ -60,7 +60,7 @@ class Rock : public LoadedRock, public FollowsMesh {
   void count_from_equilibrium() override;
   void map_walls();
   void apply_boundary();
-  /// Tractions, and what is left on the walls beside them, Pa, (normal, tangential) of each fracture cell.
+  /// Wall tractions with their remainder, Pa, (normal, tangential) of each fracture cell.
   Vector wall_load() const { return wall_traction_->now() + wall_remainder_->now(); }
   /// Pa, of the initial stress of the cell on a side (0 or 1) of a face, on the normal of the face; where rock is taken
   /// away, the part that still acts.
@@ -87,7 +87,7 @@ class Rock : public LoadedRock, public FollowsMesh {
   Vector boundary_values_;   ///< see StressOperators
   Vector initial_forces_;    ///< of the initial stress on every face, N/m
   Vector body_forces_;       ///< on every cell, N/m
-  Vector force_constant_;
+  Vector force_constant_;    ///< of the momentum rows: what does not depend on unknowns, N/m
   LinearExpression volume_change_, jump_;
 };
 

@@ -19,8 +19,8 @@ struct Imbalance {
 /// The largest imbalance of the data at a time (s):
 /// - on sides, what they give less the initial stress, in directions that may move;
 /// - between regions, the difference of their initial stresses;
-/// - inside, the force per volume b + div sigma_0, times the extent of the rock along it, over which its stress adds
-/// up.
+/// - inside, the force per volume b + div sigma_0, times the extent of the rock in its direction, over which the stress
+///   adds up.
 Imbalance start_imbalance(const Options& options, const Mesh& mesh, double time);
 
 /// Notes rock whose stress or weight is out of balance at the start by more than a hundredth of the largest stress.

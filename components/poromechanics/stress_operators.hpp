@@ -10,10 +10,9 @@ namespace sprekk::poromechanics {
 /// - displacements u (x, y of every cell, m),
 /// - isotropic stresses s (one for each cell, Pa; sigma = C : grad u − s I, so s is the Biot coefficient times p), and
 /// - boundary values b (two for every face, in the directions of its FaceConditions). On `displacement` directions b is
-/// the displacement of the face centre (m);
-///   on `traction` directions the force on the face, i.e. the traction sigma·n integrated over it (N/m), n out of the
-///   rock; on `load` directions the total load on both cells of the face, the sum of their sigma·n, n out of each
-///   (N/m). Other values of b are ignored.
+///   the displacement of the face centre (m); on `traction` directions the force on the face, i.e. the traction sigma·n
+///   integrated over it (N/m), n out of the rock; on `load` directions the total load on both cells of the face, the
+///   sum of their sigma·n, n out of each (N/m). Other values of b are ignored.
 ///
 /// Direction c of face f has the index 2 f + c. Forces, displacements and traces have the directions x and y.
 /// - Force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m):

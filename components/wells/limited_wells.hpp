@@ -17,7 +17,7 @@ namespace sprekk::wells {
 /// What holds in a well.
 enum class Binding { rate, pressure, shut };
 
-/// What a well is to do in a step.
+/// What a well is to do in a step. Rates here and below are in m^2/s, in space in m^3/s.
 struct Control {
   bool has_pressure = false;  ///< the pressure is given, and no rate
   double rate = 0;            ///< m^2/s
@@ -39,6 +39,7 @@ Binding binding(const Control& control, double pressure, double rate, double res
 /// (WellPressures::rate), which knows the cells around the places.
 class LimitedWells : public Component, public PiecewiseSmooth, public WellPressures, public KeepsTotals {
  public:
+  /// Throws InputError where the scene names no well.
   LimitedWells(const ComponentContext& context, const Options& options);
 
   void evaluate_data(const StepTime& step) override;

@@ -14,16 +14,16 @@ struct Perforation {
   Origin origin;
   std::optional<Point> at;  ///< m
   std::optional<std::string> fracture;
-  std::optional<double> index;  ///< m^2/(Pa s)
+  std::optional<double> index;  ///< m^2/(Pa s), in space m^3/(Pa s)
 };
 
 /// One well: what it is to do, its limits, and its places.
 struct WellOptions {
   Origin origin;
-  std::optional<Data> rate;      ///< m^2/s, out of the well
-  std::optional<Data> pressure;  ///< Pa
-  std::optional<Data> lowest_pressure, highest_pressure;
-  double radius = 0.1;  ///< m
+  std::optional<Data> rate;                               ///< m^2/s (in space m^3/s), out of the well
+  std::optional<Data> pressure;                           ///< Pa
+  std::optional<Data> lowest_pressure, highest_pressure;  ///< Pa
+  double radius = 0.1;                                    ///< m
   double skin = 0;
   Perforation only;                           ///< where it has one place
   std::map<std::string, Perforation> places;  ///< where it has several

@@ -23,16 +23,18 @@
 
 namespace sprekk::couplers {
 
-/// Adds to the balance of each cell what streams of fluid carry (Stream). With the fluid m that has entered the cell
-/// since the start (m^2), by the same streams, it stores c (m T − m_old T_old), and what enters is c dt q T of where it
-/// comes from: T is the temperature and c the heat capacity of the fluid, or T the concentration of a tracer and c one.
-/// Together with m = m_old + dt (sum of q) this is
+/// Adds to the balance of each cell what streams of fluid carry (Stream). With the fluid m that these streams have
+/// brought into the cell since the start (m^2, in space m^3), the cell stores c (m T − m_old T_old), and a stream of
+/// the rate q brings c dt q T_from, with the value T_from where it comes from. For heat T is the temperature and c the
+/// heat capacity of the fluid, for a tracer T is the concentration and c is 1. Together with m = m_old + dt (sum of q)
+/// this is
 ///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)),
 /// so that a uniform value stays uniform whatever the fluxes are, and nothing is lost or made: the amount is conserved
 /// in each schedule, also where the streams are those of a flow that is solved before or after. What has entered by the
 /// start of the step decays at the rate of the cell, c dt r m_old T: a uniform value stays uniform then, too.
 class Advection : public Coupler, public KeepsState, public FollowsMesh, public KeepsTotals, public CountsAmounts {
  public:
+  /// Throws InputError without a flow that carries something, and for wells that the coupler leaves out.
   Advection(const CouplerContext& context, const Carried& carried, const AdvectionOptions& options,
             MatrixCarried* in_rock, FractureCarried* in_fractures);
   /// What is carried through the walls in a step is the same for both sides.
@@ -69,11 +71,11 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   /// Looks for fracture cells that hold what is carried in another thickness than their fluid.
   void compare_apertures(const CouplerContext& context);
   void find_wells(const CouplerContext& context);
-  /// Of what comes into wells from outside.
+  /// The values of what comes into wells from outside, one a well.
   std::vector<std::optional<double>> injected_by_wells() const;
   /// Throws DataError for a value of a place that the flow does not have.
   void check_names() const;
-  /// Of the fluid that a stream brings, or of the cell that it leaves.
+  /// The value of the fluid that a stream brings, or of the cell that it leaves.
   double value_of(const FluidContents& place, const Stream& stream, const Mixtures& wells) const;
   /// Adds the balance of all cells of a place.
   void add(Assembly& assembly, const FluidContents& place, const std::vector<Stream>& streams, const Mixtures& wells,
@@ -97,7 +99,8 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   FluidContents rock_, fractures_;
   std::optional<HeldFlow> flow_;
   std::vector<std::pair<std::string, double>> injected_;  ///< values in this step
-  bool disperses_late_ = false;  ///< whether the last solve had a flow with which dispersion could not go
+  /// Whether dispersion is that of the step before, because the last solve was for the flow as well.
+  bool disperses_late_ = false;
 };
 
 }  // namespace sprekk::couplers

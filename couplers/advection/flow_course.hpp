@@ -8,7 +8,8 @@
 
 namespace sprekk::couplers {
 
-/// Rates of one kind (through faces, walls or ridges, or of wells), and the sources that belong to the flow.
+/// Rates of one kind (through faces, walls or ridges, or of wells; units as in FlowRates), and the sources that belong
+/// to the flow.
 struct FluidRates {
   Vector values;
   std::vector<FluidSource> sources = {};

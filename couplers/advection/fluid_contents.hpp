@@ -15,8 +15,8 @@ namespace sprekk::couplers {
 class FluidContents {
  public:
   FluidContents() = default;
-  /// `where`: "rock" or "fractures", in names of fields; `per_volume`: what fluid holds per volume and value,
-  /// J/(m^3 K) or 1; `decay`: 1/s, one a cell, or empty.
+  /// `where`: "rock" or "fractures", in names of fields; `per_volume`: what fluid holds per volume and unit of the
+  /// value, J/(m^3 K) or 1; `decay`: 1/s, one a cell, or empty.
   FluidContents(const CouplerContext& context, const Carried& carried, Field& value, Location location,
                 const std::string& where, double per_volume, Vector decay);
 
@@ -30,7 +30,7 @@ class FluidContents {
              double dt);
   void add_to(Balance& balance) const;
 
-  /// What the fluid holds that had entered by the start of the step, per value.
+  /// What the fluid that had entered by the start of the step holds, per unit of the value.
   Vector capacity_at_start() const { return per_volume_ * received->accepted(); }
 
   Field* value = nullptr;

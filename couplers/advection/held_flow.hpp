@@ -66,8 +66,8 @@ class HeldFlow {
   const Mesh* mesh_;
   std::string name_;
   CarryingFlow flow_;
-  Field* flux_ =
-      nullptr;  ///< through each face of the rock as last solved, m^2/s (in space m^3/s); with a flow in the rock
+  /// Through each face of the rock as last solved, m^2/s (in space m^3/s); with a flow in the rock.
+  Field* flux_ = nullptr;
   FlowCourse in_rock_, through_walls_, in_fractures_, of_wells_;
   bool is_taken_ = false, was_taken_ = false;     // whether flux_ is known, now and when the last step was accepted
   bool has_flowed_ = false, had_flowed_ = false;  // the same

@@ -50,7 +50,8 @@ struct StreamSources {
   const WellPressures* wells = nullptr;
   const Field* rock_pressure = nullptr;      ///< of the flow in the matrix
   const Field* fracture_pressure = nullptr;  ///< and in the fractures
-  /// The value of fluid of which the scene says nothing; without it, that of the cell which it enters.
+  /// The value of entering fluid for which the scene gives none; without it, such fluid has the value of the cell that
+  /// it enters.
   std::optional<double> unknown = {};
   /// The value of fluid from a named place, by name.
   std::vector<std::pair<std::string, double>> injected = {};
@@ -65,8 +66,8 @@ struct StreamSources {
 /// The streams of cells of the rock that the process owns. `fluxes`: through each face, m^2/s (in space m^3/s), out of
 /// face_cells[f][0].
 std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRates& rates, const Vector& fluxes);
-/// The streams of all fracture cells. At a junction all that flows in mixes, and each cell that takes fluid gets of the
-/// mixture. A reservoir supplies what its cells lose to others, and takes what they gain.
+/// The streams of all fracture cells. At a junction all that flows in mixes, and each cell into which fluid flows
+/// receives the mixture. A reservoir supplies what its cells lose to others, and takes what they gain.
 std::vector<Stream> streams_of_fractures(const StreamSources& sources, const FlowRates& rates);
 
 }  // namespace sprekk::couplers

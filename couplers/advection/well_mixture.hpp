@@ -23,7 +23,7 @@ struct ValuesOfCells {
 ///   T = (sum over q_k < 0 of −q_k T_k + max(Q, 0) T_given)/(sum over q_k < 0 of −q_k + max(Q, 0)).
 /// It leaves with T, at other places and to the outside.
 struct WellMixture {
-  /// By the rate at a place, K s/m^2 (in space K s/m^3), say, or by the value of a cell.
+  /// The derivative by the rate at a place (for heat K s/m^2, in space K s/m^3), or by the value of a cell.
   struct Derivative {
     int index;
     double value;

@@ -16,7 +16,7 @@ class NodalValues {
   enum class From {
     cells_and_faces,  ///< a linear fit to the cells, and faces with one cell, around the node (least squares, weights
                       ///< 1/distance^2): exact for linear fields
-    cells,            ///< the same with cells alone; with less than three around a node, the least gradient that fits
+    cells,            ///< the same with cells alone; with fewer than three around a node, the least gradient that fits
     mean_of_cells  ///< the area-weighted mean of the cells (Eq. 17 of the paper): at a wall, its error is the gradient
                    ///< times the distance to the cell centres
   };

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int rings = 3;      ///< of cells around a tip
 constexpr int divisions = 4;  ///< of each edge of a cell
-/// How far pressures may be beyond all that are given, of the range of these: up to the first they count in full, from
-/// the second on not at all.
+/// How far a pressure may be outside of the range of the given ones, as a part of this range: up to the first it has
+/// its full weight, from the second on none.
 constexpr double least_overshoot = 0.02, most_overshoot = 0.15;
 
 /// The nodes at tips.

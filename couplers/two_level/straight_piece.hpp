@@ -5,7 +5,7 @@
 
 namespace sprekk::couplers {
 
-/// 1 − cos of the smallest bend that ends a straight piece (1e-4 rad): rounding of tangents makes less.
+/// 1 − cos of the smallest bend that ends a straight piece (1.4e-4 rad): rounding of tangents makes less.
 inline constexpr double least_bend = 1e-8;
 
 /// Whether a cell and the next one, cell + 1, are on one straight piece of a fracture.

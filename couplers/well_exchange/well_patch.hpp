@@ -10,7 +10,7 @@
 
 namespace sprekk::couplers {
 
-/// Whether each cell touches neither a side nor a fracture, one flag a cell.
+/// One flag a cell: whether it touches neither a side nor a fracture.
 std::vector<char> inner_cells(const Mesh& mesh);
 
 /// Up to `most_layers` layers of cells around the cells of a point source, in rock of one mobility M; with rho, the
@@ -23,11 +23,12 @@ class WellPatch {
   WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source, const Tensor& mobility);
 
   bool is_empty() const { return cells_.empty(); }
-  /// The pressure that a constant source of a steady flow has at its point, with those of a line source, −ln rho, in
-  /// the cells around the patch.
+  /// The pressure at the point of a constant source in steady flow, with the pressures −ln rho of a line source in the
+  /// cells around the patch.
   double steady_pressure() const;
-  /// s times the Laplace transform of the pressure at the point after a source has begun, with s = c·`decay` (1/m^2)
-  /// and the diffusivity c: K_0(rho sqrt(decay)) of a line source in the cells around the patch.
+  /// s times the Laplace transform, at s = c·`decay`, of the pressure at the point of a source that begins at the time
+  /// 0, with the diffusivity c (`decay` in 1/m^2). The cells around the patch have that of a line source, K_0(rho
+  /// sqrt(decay)).
   double transformed_pressure(double decay) const;
 
  private:

@@ -26,8 +26,8 @@ class Accelerator {
   virtual void accepted() {}
   /// Called when the time step is taken back: what iterations since the last acceptance have learned is forgotten.
   virtual void rewound() {}
-  /// Called when an iteration has not converged: forgets what former time steps have taught, and tells whether there
-  /// was anything. What steps of another length, or with walls in other states, have taught may lead away.
+  /// Called when an iteration has not converged: forgets what was learned in former time steps, and returns whether
+  /// there was anything. What was learned in steps of another length, or with walls in other states, may mislead.
   virtual bool forget_steps() { return false; }
   /// For checkpoints: what later time steps use of former ones, as named values. `restore` ignores values of another
   /// shape, and forgets what there was.

@@ -29,7 +29,7 @@ class AcceleratorRegistry {
     std::function<AcceleratorChoice(Spec& accelerate)> declare;
   };
   static AcceleratorRegistry& instance();
-  void add(Type type);                                       ///< throws std::logic_error for a name that exists
+  void add(Type type);                                       ///< refuses a name that exists (refuse_registration)
   const std::vector<Type>& types() const { return types_; }  ///< sorted by name
 
  private:

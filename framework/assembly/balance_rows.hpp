@@ -22,15 +22,16 @@ namespace sprekk {
 /// together (docs/numerics/constant_modes.md).
 class BalanceRows {
  public:
-  /// The part of the round-off that Newton's method allows (64 last digits) for the change of a field in a step: a
-  /// difference of two values next to one another is exact, except for the last digit of each.
+  /// Factor of `largest` (store) where what is stored is capacity times the change of a field in the step: each of the
+  /// two values is wrong in its last digit, and Newton's method allows 64 last digits of `largest`.
   static constexpr double round_off_of_change = 1.0 / 32;
 
   /// Declares the rows of a field as balances of a quantity. To be made once, by the owner of the field, before any
   /// of their terms are added. The balances of one quantity, of this and of other fields, have one unit and may be
   /// added up.
   BalanceRows(Assembly& assembly, const Field& row, const std::string& quantity);
-  /// For terms that other parts add to balances; without effect beside the residual if the owner has declared none.
+  /// For parts that add terms to the rows of another part. Where the owner has declared no balances, only the residual
+  /// changes.
   BalanceRows(Assembly& assembly, const Field& row);
 
   /// residual += amounts that each row stores in the step. `largest`: a bound of the numbers whose differences these

@@ -11,10 +11,11 @@ namespace sprekk {
 /// Whether balances are near-singular for a constant mode: whether the derivatives without exchanges, applied to the
 /// constant (sum of the absolute values in the rows), are at most 1e-6 of the largest exchange. The derivatives that
 /// determine the constant are then lost in the round-off of the rows, but not in the sum of the rows without exchanges.
-/// `summed`: all balances of a quantity, or those of one of its fields; what joins these to the others through
-/// interfaces counts then. Where other unknowns of the bulk respond to the constant, only the solution shows how far
-/// they determine it: there `also_coupled` decides; a caller sets it after an attempt in which the constant was lost.
-/// Never true where values are fixed in place of balances. Collective; needs the derivatives.
+/// `summed`: all balances of a quantity, or those of one of its fields; for one field, its coupling to the others, also
+/// through interfaces, counts among the derivatives that determine the constant. Where other unknowns of the bulk
+/// respond to the constant, only the solution shows how far they determine it: the result is false there unless
+/// `also_coupled`, which a caller sets after an attempt in which the constant was lost. Never true where values are
+/// fixed in place of balances. Collective; needs the derivatives.
 bool is_weak(const Assembly& assembly, const Balances::Quantity& summed, bool also_coupled = false);
 
 /// A row of the Jacobian that is the sum of all rows of a quantity's balances.
@@ -45,8 +46,8 @@ class BalanceSums {
   /// has entries in the columns of all these unknowns.
   bool are_used_where_coupled = false;
 
-  /// The balances whose sums take the place of one of them: those of a quantity, and of single fields of it that have a
-  /// constant of their own, as rock and fractures whose walls let hardly anything through. Arguments as of
+  /// The balances whose sums take the place of one of them: those of a quantity, and those of single fields of it that
+  /// have a constant of their own, such as the matrix and fractures with nearly sealed walls. Arguments as of
   /// `sum_of_rows`. Collective.
   std::vector<Balances::Quantity> sums_of(const Assembly& assembly, const std::vector<std::vector<char>>& owned,
                                           const std::vector<int>& first) const;

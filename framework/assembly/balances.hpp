@@ -34,14 +34,14 @@ class Balances {
   void compare_round_off(int unknown, double largest);
 
   const std::vector<Quantity>& quantities() const { return quantities_; }
-  /// The residual without what rows exchange, to be added up.
+  /// The residual of each row without exchanges; these may be added up.
   const Vector& residual(int unknown) const { return of_[unknown].residual; }
   /// The throughput of each row, not negative: what it stores, what sources bring in and what leaves all rows. Right on
   /// rows that this process owns.
   const Vector& throughput(int unknown) const { return of_[unknown].throughput; }
   /// Of the sum of all rows: the size of its largest term (the sum of the absolute values of that term in all rows).
   double magnitude(int unknown) const { return of_[unknown].magnitude; }
-  /// Of the sum of all rows: the size of the numbers whose differences the terms are, which leave round-off of their
+  /// Of the sum of all rows: the size of the numbers whose differences make up the terms. They leave round-off of their
   /// own size in the sum.
   double round_off_base(int unknown) const { return of_[unknown].round_off_base; }
 

@@ -72,7 +72,7 @@ class BlockSystem {
 
   std::vector<const Field*> unknowns_;
   std::vector<int> first_;
-  std::vector<int> first_row_;  ///< of each unknown's owned rows in the system, and their number
+  std::vector<int> first_row_;  ///< of each unknown: place of its first owned row in the system; last, their number
   int size_ = 0;
   std::vector<std::vector<char>> owned_;  ///< [unknown][row of the field]
   LinearSystem system_;

@@ -21,9 +21,9 @@ class CountsFromHere {
   virtual ~CountsFromHere() = default;
   /// Throws InputError, with the reason, where the part cannot do this.
   virtual void require_countable() const {}
-  /// Makes the present state the reference: settled unknowns that are changes become zero, settled fields load nothing,
-  /// and nothing else of the state changes. To be called after the state has been settled, with parts that have begun a
-  /// step, components before couplers.
+  /// Makes the present state the reference: unknowns that are changes become zero where they were settled, and settled
+  /// fields exert no load. Nothing else of the state changes. To be called after the state has been settled, with parts
+  /// that have begun a step, components before couplers.
   virtual void count_from_here(const SettledFields& settled) = 0;
   /// Whether the reference state was settled and consists of more than fields. Such a part cannot be carried over to
   /// another mesh.
@@ -34,8 +34,8 @@ class CountsFromHere {
 class CountsAmounts {
  public:
   virtual ~CountsAmounts() = default;
-  /// What has changed before is no part of any amount from now on. To be called after all references have been set
-  /// (CountsFromHere).
+  /// From now on no amount contains a change that was made before this call. To be called after all references have
+  /// been set (CountsFromHere).
   virtual void count_amounts_from_here(const SettledFields& settled) = 0;
 };
 

@@ -14,20 +14,20 @@ struct FloatingBalances {
   int balances = 0;  ///< how many there are
 };
 
-/// Whether sets are told that float beside others that are held, or only those of a quantity all of whose balances
-/// float. At rest a set that floats beside others keeps its values.
+/// Which floating sets are reported: all (`somewhere`), or only those of a quantity all of whose balances float
+/// (`everywhere`). At rest a set that floats beside others keeps its values.
 enum class Floating { somewhere, everywhere };
 
-/// All sets of balances whose potentials float in an assembly with derivatives. It follows from what parts have said of
-/// their balances (BalanceRows, Operator) and not from a factorization, so solvers and their tolerances have no say in
-/// it.
+/// All sets of balances whose potentials float in an assembly with derivatives. They are found from what parts declare
+/// of their balances (BalanceRows, Operator) and not from a factorization, so they do not depend on solvers and their
+/// tolerances.
 ///
-/// Potentials are connected where a row has entries for both. Besides the unknowns of the balances those others of
-/// their unit count that have one component, such as potentials on faces, or in a well. A set floats where no row has
-/// anything but differences of its potentials: no balance stores, or lets out, an amount that depends on the constant,
-/// no other equation responds to it, and none of its values is fixed. `owned`: for every row of every unknown, whether
-/// this process owns it. `first`: for every unknown, its first row and column among all. Collective; every process gets
-/// the same.
+/// Potentials are connected where a row has entries for both. The potentials are the unknowns of the balances, and
+/// other scalar unknowns of their unit that have no balances: those on faces, or in a well. A set floats where no row
+/// has anything but differences of its potentials: no balance stores, or lets out, an amount that depends on the
+/// constant, no other equation responds to it, and none of its values is fixed. `owned`: for every row of every
+/// unknown, whether this process owns it. `first`: for every unknown, its first row and column among all. Collective;
+/// every process gets the same.
 std::vector<FloatingBalances> floating_balances(const Assembly& assembly, const std::vector<std::vector<char>>& owned,
                                                 const std::vector<int>& first, Floating told = Floating::somewhere);
 

@@ -21,8 +21,9 @@ class FollowsWaiting {
   /// The pairs of fields for which a stabilization adds the Schur complement of the waiting unknowns (WaitingResponse).
   virtual std::vector<Following> following(const std::string& stabilization) const = 0;
   /// The lowest change that the Schur complement may make to each value of a row, 0 or negative: waiting unknowns
-  /// follow to a bound and no further (walls that close touch). Empty for no bound. The equation of such a row has the
-  /// derivative 1 by the row's own field. The term vanishes with convergence, so the bound changes no answer.
+  /// follow to a bound and no further (walls that close come into contact). Empty for no bound. The equation of such a
+  /// row has the derivative 1 by the row's own field. The term vanishes with convergence, so the bound changes no
+  /// answer.
   virtual Vector least_change(const Field& /*row*/) const { return {}; }
 };
 

@@ -23,7 +23,7 @@ struct LinearExpression {
   std::vector<Term> terms;
 
   Vector now() const;
-  Vector accepted() const;  ///< with the accepted values of the fields, and the constant of now
+  Vector accepted() const;  ///< with the accepted values of the fields and the present constant
 };
 
 }  // namespace sprekk

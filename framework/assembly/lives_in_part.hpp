@@ -5,8 +5,8 @@
 
 namespace sprekk {
 
-/// A component whose fields have a meaning in some of the cells, or of the fracture cells, only. Elsewhere their values
-/// mean nothing, and files and probes do not show them.
+/// A component that lives in some of the cells, or of the fracture cells. Values of its fields elsewhere have no
+/// meaning, and files and probes do not show them.
 class LivesInPart {
  public:
   virtual ~LivesInPart() = default;

@@ -12,7 +12,7 @@ class NeedsDirectSolver {
  public:
   /// What cannot be solved iteratively.
   struct Need {
-    const Field* field = nullptr;  ///< systems that solve for it; none where every solver will do
+    const Field* field = nullptr;  ///< systems with this unknown need it; nullptr where none does
     std::string because;
   };
   virtual ~NeedsDirectSolver() = default;

@@ -13,8 +13,8 @@ namespace sprekk {
 /// as plain sparse matrices.
 ///
 /// Rows of balances may exchange amounts: what leaves one row enters another, and cancels in the sum of all rows, but
-/// for the round-off of the entries. Whoever makes such a matrix knows what stays in the sum: the amounts that leave
-/// all rows together.
+/// for the round-off of the entries. Code that makes such a matrix also gives what stays in the sum: the amounts that
+/// leave all rows together.
 class Operator {
  public:
   Operator() : Operator(SparseMatrix()) {}
@@ -22,8 +22,8 @@ class Operator {
   /// An exchange. `leaving` has the shape of `entries`, and its column sums are what those of `entries` would be
   /// without round-off.
   Operator(SparseMatrix entries, SparseMatrix leaving);
-  /// An exchange of rows of one field with those of another, in both of which the matrix stands, with opposite signs:
-  /// nothing of it leaves the rows of both together. Both fields have to be solved together.
+  /// An exchange between the rows of two fields. The matrix is in the rows of both, with opposite signs: nothing of it
+  /// leaves the rows of both together. Both fields have to be solved together.
   static Operator between_fields(SparseMatrix entries);
   const SparseMatrix& entries() const { return *entries_; }
   bool is_exchange() const { return leaving_ != nullptr; }

@@ -24,8 +24,8 @@ struct Balance {
   bool is_closed = true;  ///< false where prescribed values replace a balance, which lets an unknown amount in
 };
 
-/// Adds the totals of a cumulative field, (stored, outflow) or (stored, injected, outflow) of each entity, each as its
-/// owner has it. Collective.
+/// Adds the sums of a cumulative field over all entities, with the values of their owners. Its components are (stored,
+/// outflow) or (stored, injected, outflow). Collective.
 void add_totals(Balance& balance, const Mesh& mesh, const Field& cumulative);
 
 /// A column of history.csv.

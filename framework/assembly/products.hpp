@@ -13,7 +13,7 @@ namespace sprekk {
 /// A product A x, with the size of the terms of each row.
 struct FieldProduct {
   Vector value;  ///< A x
-  Vector size;   ///< |A| |x|, or empty if nobody asked for it
+  Vector size;   ///< |A| |x|, or empty if it was not asked for
 };
 
 /// The product of a matrix in compressed form with a vector.
@@ -29,7 +29,7 @@ class Products {
   const FieldProduct& now(const Operator& a, const Field& x) { return of(a, x, true); }
   /// The product alone, without the sizes, which takes less time.
   const Vector& value_now(const Operator& a, const Field& x) { return of(a, x, false).value; }
-  /// Drops the products of operators that nobody has asked for since the last call.
+  /// Drops the products that have not been asked for since the last call.
   void forget_unused();
 
  private:

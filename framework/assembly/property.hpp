@@ -22,7 +22,7 @@ class Property {
 
   /// Evaluates the datum for this step. Throws DataError, and then the earlier values stay.
   void evaluate(const StepTime& step);
-  /// Values that somebody else has computed.
+  /// Sets values that the caller has computed.
   void set(Vector values);
 
   const Vector& values() const { return values_; }

@@ -7,8 +7,8 @@
 
 namespace sprekk {
 
-/// A part whose components come to rest together only: while one of them is settled alone, terms of the part would keep
-/// their values of before the start, and the state would move from the first step on.
+/// A part whose components reach a state at rest only together. If one of them were settled alone, terms of the part
+/// would keep their values from before, and the state would change from the first step on.
 class RestsTogether {
  public:
   virtual ~RestsTogether() = default;

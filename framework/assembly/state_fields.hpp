@@ -54,7 +54,7 @@ class TakesState {
   virtual ~TakesState() = default;
   /// The variable of this name is the sum of all fields that are offered for it. They must outlive this object.
   virtual void offer_state(const std::string& variable, const StateField& source) = 0;
-  /// Throws InputError where a formula names a variable that nobody offers.
+  /// Throws InputError where a formula names a variable that has not been offered.
   virtual void require_state() const = 0;
 };
 

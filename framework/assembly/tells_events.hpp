@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// Something that went on by itself once it had begun, with no change of what drives the model, or hardly any.
+/// A process that went on by itself once it had begun, while the loads changed hardly or not at all.
 struct Event {
   std::string kind;               ///< one word
   std::string thing;              ///< "component.thing", or a component
@@ -18,13 +18,13 @@ struct Event {
   std::string reason;             ///< why it has ended there, or begun
 };
 
-/// Capability of parts that tell events.
+/// Capability: a part that reports events.
 class TellsEvents {
  public:
   virtual ~TellsEvents() = default;
   /// Names and units of the figures that its events may have; the values mean nothing. Parts may share figures.
   virtual std::vector<Quantity> event_figures() const = 0;
-  /// The events that have ended in the step, which is about to be accepted: called after all notes on it. The same on
+  /// The events that have ended in the step. Called when it is about to be accepted, after all notes on it. The same on
   /// all processes.
   virtual std::vector<Event> events(const StepTime& step) const = 0;
 };

@@ -17,7 +17,7 @@ struct ProgramPurpose {
 };
 
 /// Runs the command that the arguments of `main` ask for. Returns the exit code: 0 done, 1 the run failed, 2 the input
-/// is wrong, 130 interrupted.
+/// is wrong, 3 compared runs differ by more than the tolerance, 130 interrupted.
 int run_command_line(int argc, char** argv, const ProgramPurpose& purpose);
 
 }  // namespace sprekk

@@ -22,7 +22,7 @@ std::vector<Polyline> polylines(const Grid& fractures, const Grid& paths);
 struct PathDifference {
   int fracture = 0;            ///< its number
   double there = 0, back = 0;  ///< m: largest distance of points of the first line from the other one, and back
-  double sideways = 0;         ///< m: the same, both ways, without what goes on beyond an end of the other line
+  double sideways = 0;         ///< m: the larger of both, without parts beyond an end of the other line
   double length = 0;           ///< m: of the first line less that of the other one
   Position where{};            ///< m, where the larger of `there` and `back` is
   double scale = 0;            ///< m: the length of the longer line

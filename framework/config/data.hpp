@@ -26,8 +26,9 @@ class DataError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A scalar in SI units: a number, an expression of x, y, t, a value per region or fracture, a table (CSV), or windows
-/// in time. `at` throws DataError when the function has no finite value there or leaves the parameter's range.
+/// A scalar in SI units: a number, an expression (of place and time, and of the state where the parameter may be a
+/// formula), a value per region or fracture, a table (CSV), or windows in time. `at` throws DataError when the function
+/// has no finite value there or leaves the parameter's range.
 class Data {
  public:
   Data(double constant = 0);  // NOLINT: a number is a datum
@@ -82,7 +83,7 @@ struct TensorData {
   Tensor at(const Place& place) const;
   bool is_zero() const;
   bool is_constant() const;
-  bool is_diagonal() const;  ///< whether all others are zero everywhere
+  bool is_diagonal() const;  ///< whether all components off the diagonal are zero everywhere
   bool depends_on_time() const;
   std::vector<double> switch_times() const;
 };

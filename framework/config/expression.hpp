@@ -14,8 +14,8 @@ namespace sprekk {
 Data parse_expression(const std::string& text, double scale, const Origin& where, const std::string& name,
                       const StateVariables& state);
 
-/// What an expression lacks to have a given dimension. `none`: its units give it that dimension, with x and y as plain
-/// numbers or lengths, t as a plain number or a time; or it is zero. `any`: it has no unit at all, and needs one.
+/// What an expression lacks to have a given dimension. `none`: its units give it that dimension, with coordinates as
+/// plain numbers or lengths, t as a plain number or a time; or it is zero. `any`: it has no unit at all, and needs one.
 /// `of_a_term`: its units do not give that dimension.
 enum class LackOfUnit { none, any, of_a_term };
 /// What an expression lacks, see LackOfUnit. Numbers without a unit count as lengths where `dimension` is one. The

@@ -3,7 +3,8 @@
 
 namespace sprekk {
 
-/// Thrown where something is for the program of another dimension (2, 3), to which it is handed over.
+/// Thrown for a scene or results of another dimension (2, 3) than that of this program. The program for that dimension
+/// takes over.
 struct OtherDimension {
   int dimension;
 };

@@ -31,7 +31,7 @@ class Spec {
   //
   // What a scene may write for data (all with units; see parse_data in units.hpp):
   //   20 MPa                                              a number
-  //   (1 + 0.1*sin(pi*x)) MPa                             an expression of x, y (m) and t (s)
+  //   (1 + 0.1*sin(pi*x)) MPa                             an expression of x, y (in space z; m) and t (s)
   //   {regions: {granite: 1e-18 m^2, default: 1e-20 m^2}} a datum for each region of the mesh
   //   {fractures: {fault: 0.3, default: 0.6}}     a datum for each fracture
   //   {column: friction, default: 0.6}            a column of the tables that fractures come from
@@ -73,7 +73,7 @@ class Spec {
   Spec& custom(const std::string& name, std::function<void(const Node&)> read, About about);
   /// A check across parameters, made after all are read; throws InputError.
   Spec& check(std::function<void(const Node& whole)> check);
-  /// Keys that somebody else reads (for example `type`): allowed and ignored.
+  /// Keys that other code reads (for example `type`): allowed and ignored.
   Spec& ignore(const std::string& name);
 
   /// Reads all parameters into their targets. Unknown keys, missing required ones, wrong dimensions, values out of

@@ -43,21 +43,22 @@ const StateVariables* formula_variables(const std::string& spec, const std::stri
 /// "A formula may name NAME (what it is, unit), …", or "" for a parameter that may be none.
 std::string formula_text(const std::string& spec, const std::string& parameter);
 
-/// While it lives, expressions are read as formulas of these variables; with nullptr, of place and time alone.
+/// A guard: while it exists, expressions are read as formulas of these variables; with nullptr, of place and time
+/// alone.
 class ReadsFormula {
  public:
   explicit ReadsFormula(const StateVariables* variables);
   ~ReadsFormula();
   ReadsFormula(const ReadsFormula&) = delete;
   ReadsFormula& operator=(const ReadsFormula&) = delete;
-  /// The variables of the innermost one; none outside.
+  /// The variables of the innermost guard; empty without one.
   static const StateVariables& variables();
 
  private:
   const StateVariables* before_;
 };
 
-/// What formulas see while value_at_state goes on, in this thread.
+/// The state that formulas read during a call of value_at_state, in this thread.
 struct StateNow {
   const StateVariables& variables;
   std::span<const double> values;
@@ -67,7 +68,7 @@ struct StateNow {
 /// The state that a formula has to take now; nullptr outside of value_at_state.
 const StateNow* state_now();
 
-/// While it lives, formulas add no derivatives.
+/// A guard: while it exists, formulas add no derivatives.
 class WithoutDerivatives {
  public:
   WithoutDerivatives();

@@ -1,4 +1,4 @@
-// Quantities with units, and expressions of x, y, t.
+// Quantities with units, and expressions of place and time.
 #pragma once
 
 #include <string>
@@ -15,14 +15,14 @@ namespace sprekk {
 double parse_quantity(const std::string& text, const std::string& unit, const Origin& where,
                       const std::string& name = "");
 
-/// A number with a unit, or an expression of x, y (m) and t (s) with an optional unit behind it:
+/// A number with a unit, or an expression of x, y (m), in space also z, and t (s) with an optional unit behind it:
 /// "20 MPa", "(1 + 0.1*sin(pi*x)) MPa", "if(t < 6*h, 0, 5e-9)". Throws InputError for anything malformed.
 ///
-/// An expression has + - * / ^, comparisons, && and ||, if(condition, then, else), sin cos tan asin acos atan atan2
-/// sinh cosh tanh exp log (natural) log10 sqrt abs sign floor ceil pow erf erfc min max, the constants pi and e, and
-/// units as their SI values (h, day, MPa, …). Without a unit behind it, the value of an expression is in SI units. A
-/// unit behind an expression applies to the whole expression, which must then be in parentheses or be a single name,
-/// number or function. An expression without x, y and t is a constant. For a quantity with a dimension, an expression
+/// An expression may have + - * / ^, comparisons, && and ||, if(condition, then, else), sin cos tan asin acos atan
+/// atan2 sinh cosh tanh exp log (natural) log10 sqrt abs sign floor ceil pow erf erfc min max, the constants pi and e,
+/// and units as their SI values (h, day, MPa, …). Without a unit behind it, the value of an expression is in SI units.
+/// A unit behind an expression applies to the whole expression, which must then be in parentheses or be a single name,
+/// number or function. An expression without a variable is a constant. For a quantity with a dimension, an expression
 /// needs a unit as a number does: a constant must have the dimension, and any other expression must contain a unit or
 /// have one behind it. `at` throws DataError where an expression has no finite value.
 Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name = "");

@@ -12,7 +12,7 @@ namespace sprekk {
 /// Says where a key belongs, as a sentence: "'every' belongs in 'output'", or "".
 using PlaceOfKey = std::function<std::string(const std::string& key)>;
 
-/// While it lives, messages on unknown keys say where these belong.
+/// A guard: while it exists, messages on unknown keys say where these belong.
 class KnownPlaces {
  public:
   explicit KnownPlaces(PlaceOfKey place);
@@ -27,11 +27,10 @@ class KnownPlaces {
 /// What is known of the place of a key, or "".
 std::string place_of_key(const std::string& key);
 
-/// Lets messages say what to write instead of a key that users look for in the maps of a spec, and which these do not
-/// have.
+/// Adds advice to the message on a key that users may write in the maps of a spec although these do not have it.
 void write_instead(const std::string& spec, const std::string& key, const std::string& advice);
 
-/// What has been said by write_instead, or "".
+/// The advice that write_instead was given, or "".
 std::string instead_of_key(const std::string& spec, const std::string& key);
 
 /// As unknown_name, for a key: the message says also where the key belongs.

@@ -15,24 +15,24 @@ namespace sprekk {
 struct Subcell {
   int cell;
   std::array<int, dimension> subfaces;  ///< indices into InteractionRegion::faces
-  std::array<Point, dimension>
-      gradient;  ///< grad v = sum_i gradient[i] (v at the continuity point of subface i - v at the centre), 1/m
-  std::array<Point, dimension>
-      half_face;   ///< normal out of the cell times the measure of the subface, m (m^2 in three dimensions)
+  /// grad v = sum_i gradient[i] (v at the continuity point of subface i - v at the centre), 1/m.
+  std::array<Point, dimension> gradient;
+  /// The normal out of the cell times the measure of the subface, m (m^2 in three dimensions).
+  std::array<Point, dimension> half_face;
   double measure;  ///< m^2 (m^3 in three dimensions)
 };
 
 /// The subcells and subfaces around a node. A subface is the part of a face next to the node (share_at_node), with the
 /// normal of the whole face. The values of both sides agree at the continuity point of a subface: in a plane a third of
-/// the way from the centre of the face to the node (Klausen, Radu, Eigestad 2008), in space see continuity_point. For a
-/// face with one cell the continuity point is the centre of the face, so that values there are the values of a boundary
-/// face or wall.
+/// the way from the centre of the face to the node (Klausen, Radu, Eigestad 2008), also on quadrilaterals, where
+/// continuity_point has the centre; in space that of continuity_point. For a face with one cell the continuity point is
+/// the centre of the face, so that values there are the values of a boundary face or wall.
 struct InteractionRegion {
   std::vector<Subcell> subcells;  ///< in the order of Mesh::node_cells
   std::vector<int> faces;         ///< of the subfaces, in the order of Mesh::node_faces
   std::vector<double> shares;     ///< of the faces that the subfaces are (share_at_node)
-  std::vector<std::array<int, 2>>
-      neighbours;  ///< subcells of each subface, as in Mesh::face_cells; none if there is no second
+  /// The subcells of each subface, as in Mesh::face_cells; none if there is no second.
+  std::vector<std::array<int, 2>> neighbours;
 
   /// Describes the region around `node`. Keeps the storage of its former content.
   void assign(const Mesh& mesh, int node);

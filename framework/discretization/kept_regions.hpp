@@ -20,7 +20,7 @@ struct RegionInputs {
 /// positions of their corners, geometry of their cells and faces, which wall of which fracture cell a face is, and the
 /// coefficients that the caller compares. A row of an operator is kept when all its nodes are such nodes; all other
 /// rows are computed anew, from all their nodes. So the merged operator has the same bits as one that is computed as a
-/// whole. All inputs are compared; nobody needs to say what has changed.
+/// whole. All inputs are compared, so callers need not say what has changed.
 class KeptRegions {
  public:
   using Compare = std::function<bool(int after, int before)>;

@@ -12,7 +12,7 @@ namespace sprekk {
 /// (rim_at) that bends by at most 45 degrees there, and meets sides at right angles.
 bool is_fracture_end(const Mesh& mesh, int node);
 
-/// The nodes within so many edges of an end, the end among them, along nodes where its field is undisturbed: not on
+/// The nodes within `edges` edges of an end, the end among them, along nodes where its field is undisturbed: not on
 /// sides (but in space on those that the rim meets at right angles), not on other fractures, not on the end's own
 /// fracture beyond a kink (10 degrees), and not where the node has one cell.
 std::vector<int> nodes_around_end(const Mesh& mesh, int end, int edges);

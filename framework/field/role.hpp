@@ -9,7 +9,8 @@ namespace sprekk {
 /// determine it, else it keeps its initial value. derived: follows from other fields; kept because its accepted value
 /// is needed, or for output.
 ///
-/// There is no default: a wrong kind of block gives the right answer, but many times slower, and nothing would tell.
+/// There is no default: a wrong kind of block gives the right answer, but many times slower, and no message would show
+/// it.
 class Role {
  public:
   static constexpr Role unknown(BlockKind kind) { return {Determination::unknown, kind}; }

@@ -14,9 +14,12 @@ namespace sprekk {
 /// all nodes of the input. Cells keep their order. The plus side of a fracture in a plane is to the left of its chain.
 /// What fractures share, a node in a plane and an edge in space, becomes a Junction. Each call gives the mesh a new
 /// version.
-/// Throws InputError for cells that are degenerate, not convex or overlap, three cells at a face, outer faces without a
-/// side, inner faces with one, and fractures that have no face, leave the faces of the mesh, meet themselves, share a
-/// face, meet on the outer boundary, or touch it other than with an end.
+///
+/// Throws InputError for
+/// - cells that are degenerate, not convex or overlap, and three cells at a face;
+/// - outer faces without a side, and inner faces with one;
+/// - fractures that have no face, leave the faces of the mesh, meet themselves, share a face, meet on the outer
+///   boundary, or touch the outer boundary other than with an end.
 Mesh build_mesh(const RawMesh& raw);
 
 /// The mesh with the walls closed again, so that build_mesh(to_raw_mesh(mesh)) has the same cells. `merged`,

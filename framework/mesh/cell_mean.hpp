@@ -10,8 +10,8 @@ namespace sprekk {
 
 /// The mean over a cell of a function of the position (m): exact for polynomials of second order (the mean over the
 /// middles of the edges of each triangle of the cell; in space that over four points in each tetrahedron, Hammer and
-/// Stroud 1956). With the value at the centre instead, which is exact for linear functions only, the error of a
-/// pressure with a varying source is twice as large.
+/// Stroud 1956). With the value at the centre, which is exact for linear functions only, the error of a pressure with a
+/// varying source would be twice as large.
 template <typename Function>
 auto cell_mean(const Mesh& mesh, int cell, const Function& value) {
   using Value = decltype(value(mesh.cell_center[cell]));

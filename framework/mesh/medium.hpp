@@ -5,8 +5,8 @@
 
 namespace sprekk {
 
-/// "rock", say: for messages, and the name of the region that no other one covers. "medium" as long as no physics that
-/// is linked to the program has said so.
+/// "rock", say: for messages, and the name of the region that no other one covers. "medium" unless a physics that is
+/// linked to the program has named it.
 const std::string& medium_name();
 
 /// Names the medium before main begins:

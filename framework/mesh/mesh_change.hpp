@@ -11,7 +11,7 @@ namespace sprekk {
 /// A part of a fracture cell that has been replaced, by the way along the fracture.
 struct ReplacedPart {
   int cell;       ///< the new fracture cell in whose place the part is
-  int old_cell;   ///< the fracture cell that is no more
+  int old_cell;   ///< the fracture cell of the old mesh that it was in
   double share;   ///< of the old cell's length, above 0; all parts of an old cell add up to 1
   double length;  ///< m, of the part
 };
@@ -33,9 +33,9 @@ struct MeshChange {
   std::vector<int> removed_cells;  ///< the old cells that no longer exist, ascending
   /// Where fracture cells have been replaced by others, along the way from the last point that was kept.
   std::vector<ReplacedPart> replaced_parts;
-  /// Whether fractures are where they were, so that a state differs by its cells alone.
+  /// Whether all fractures keep their places: the change makes other cells, and nothing else.
   bool is_at_rest = false;
-  /// Whether no step has been made before the change: the state is that which the scene gives, on any mesh.
+  /// Whether the mesh changes before the first step: the state is then the initial one of the scene.
   bool is_at_start = false;
 };
 

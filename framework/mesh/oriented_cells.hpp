@@ -8,7 +8,7 @@
 namespace sprekk {
 
 /// The corners of all cells in the order of their shapes, not mirrored. Throws InputError for a cell that names a node
-/// that does not exist, for one of a shape that there is not, and for those that require_sound_cell refuses.
+/// that does not exist, for one whose number of corners no shape has, and for those that require_sound_cell refuses.
 std::vector<CellNodes> oriented_cells(const RawMesh& raw);
 
 /// Throws InputError for a cell without area or volume and for one whose corners are not convex, mirrored or not.

@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// A sum over numbers in their order (FNV-1a, 64 bits): two that differ have different sums, except by accident.
+/// A hash of numbers in their order (FNV-1a, 64 bits): other numbers give another hash, except by accident.
 class TopologyHash {
  public:
   template <class Number>
@@ -21,7 +21,8 @@ class TopologyHash {
   std::uint64_t value_ = 14695981039346656037u;
 };
 
-/// Of the cells with their corners and of the fractures; neither places nor processes matter.
+/// The hash of the corners of all cells, and of the fracture and the ridges of each fracture cell. It depends neither
+/// on positions nor on the number of processes.
 inline std::uint64_t topology_hash(const Mesh& mesh) {
   TopologyHash hash;
   for (const CellNodes& corners : mesh.cell_nodes)

@@ -17,8 +17,8 @@ struct CrossingArm {
   double across;       ///< resistance of the way from a wall to the middle line, times the length of the wall
 };
 
-/// What fills a crossing: one of the fractures goes through, or a resistivity is given, or else what has the harmonic
-/// mean of the conductivities of the fractures that meet.
+/// What fills a crossing: one of the fractures (`through`), or a medium with the given resistivity, or else one with
+/// the harmonic mean of the conductivities of the fractures that meet.
 struct CrossingFill {
   int through = none;  ///< index into Mesh::fractures
   std::optional<double> resistivity = std::nullopt;

@@ -38,13 +38,13 @@ struct FractureGeometry {
   std::optional<Ellipse> ellipse = std::nullopt;  ///< in space, instead of points
 };
 
-/// What lies on the side of a plane into which `normal` (of any length) points.
+/// What lies on the side of a plane into which `normal` (of any length) points. `point` (m) is on the plane.
 struct HalfSpace {
   Point point, normal;
 };
 
-/// A part of the box with a name, for properties of its own. In a plane it is a polygon; in space it is what all of its
-/// half-spaces have in common with what lies between its surfaces.
+/// A part of the box with a name, for properties of its own. In a plane it is a polygon; in space it is the
+/// intersection of its half-spaces with the layer between its surfaces.
 struct RegionGeometry {
   std::string name;
   std::vector<Point> polygon;  ///< m, simple, either orientation, not closed by a repeated point
@@ -105,8 +105,8 @@ struct MeshOptions {
   /// this; 0 does not refine in gaps. With 0.5, angles at ends stay above 18 degrees.
   double gap_edges = 0.5;
   double gap_length = 2;  ///< gaps between parallel walls are not refined if longer than so many times their width
-  std::optional<double> gap_size =
-      std::nullopt;                       ///< least edge length in gaps, m; default a 500th of the shortest size
+  /// Least edge length in gaps, m; default a 500th of the shortest size, a 20th in space.
+  std::optional<double> gap_size = std::nullopt;
   std::array<int, dimension> cells = {};  ///< structured: along each axis; 0: as many as `size` gives
   double distortion = 0;  ///< moves inner nodes by up to this part of the shortest edge at the node, 0 to 0.4
   int seed = 1;           ///< of the random distortion

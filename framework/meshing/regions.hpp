@@ -11,6 +11,7 @@ namespace sprekk {
 /// The names of all regions: medium_name(), then those that the geometry names.
 std::vector<std::string> region_names(const Geometry& geometry);
 
+/// Whether a point (m) lies in a region.
 bool is_inside(const Point& x, const RegionGeometry& region);
 
 /// Assigns each cell to the last region that contains the centre of the cell, or to region 0 where there is none.

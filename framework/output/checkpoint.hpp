@@ -24,8 +24,8 @@ struct Checkpoint {
   std::vector<NoteRecord> notes;  ///< of all steps so far
   Mesh mesh;
   std::map<std::string, Values> fields;  ///< by full name
-  std::map<std::string, Vector>
-      extra;  ///< state of accelerators, of the time steps, of tips: by a name of their choice
+  /// The state of accelerators, of the time steps, of tips, by names that they choose.
+  std::map<std::string, Vector> extra;
 };
 
 /// 16 hexadecimal digits that change with the text (FNV-1a, 64 bits). The caller leaves out of the text what may

@@ -28,8 +28,8 @@ class OutputFolder {
   /// a folder, or not writable, or holds results (holds_results) while a new run is to be written into it.
   static OutputFolder given(const std::filesystem::path& path, Purpose purpose = Purpose::new_run);
 
-  /// Whether there is more in the folder than a run leaves that was killed before its first checkpoint: a lock, and
-  /// files that are not complete.
+  /// Whether the folder contains more than a lock and incomplete files, which is all that a run leaves that was killed
+  /// before its first checkpoint. True for a folder that cannot be read.
   static bool holds_results(const std::filesystem::path& folder);
 
   /// Makes the folder with its parents; further calls do nothing. Throws InputError when it cannot be made.

@@ -6,8 +6,8 @@
 
 namespace sprekk {
 
-/// A regular file that is open for writing. A symbolic link of its name is not followed: what somebody has put into a
-/// folder of results must not let a run write outside of it.
+/// A regular file that is open for writing. A symbolic link of its name is not followed: a link in a folder of results
+/// must not make a run write outside of the folder.
 class PlainFile {
  public:
   /// anew: whatever has the name is removed, a link as well. append: what is there is kept.

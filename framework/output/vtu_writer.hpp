@@ -31,7 +31,7 @@ void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const
 /// Other fields are left out.
 void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
 
-/// A line that goes on from a fracture, and is not in the mesh.
+/// A line that continues a fracture and is not in the mesh.
 struct OutputLine {
   int fracture;
   std::vector<Point> points;  ///< m

@@ -3,8 +3,8 @@
 
 namespace sprekk {
 
-/// Thrown between iterations of an attempt that shall not go on. This is no std::exception, so that no handler takes it
-/// for a failure of the attempt. Whoever catches it rewinds the attempt.
+/// Thrown between iterations of an attempt that is to be given up. This is no std::exception, so that no handler takes
+/// it for a failure of the attempt. Whoever catches it rewinds the attempt.
 struct Interrupted {};
 
 namespace interruption {

@@ -9,10 +9,10 @@ struct CavityOptions {
   /// five times the length of growth). Cells next to those that the path crosses are always made anew.
   double radius;
   double size;  ///< edge length at the new path, m
-  double
-      growth;  ///< by how many m the edge length grows per m of distance from the path, if the rim is far enough away
-  /// Where the outer boundary or another fracture is nearer than `size` times this, the edges of the path are as long
-  /// as the width of the gap over this; 0 does not refine in gaps.
+  /// By how many m the edge length grows per m of distance from the path, if the rim is far enough away.
+  double growth;
+  /// Where the outer boundary or another fracture is nearer than gap_edges · size, the edges of the path are as long as
+  /// this distance over gap_edges. 0: no refinement in gaps.
   double gap_edges = 0.5;
   /// Whether the topology of new cells must not depend on the last digits of coordinates (fill_rounded_cavity).
   bool rounds = false;

@@ -1,4 +1,4 @@
-// Lets tips that go on keep the mesh around them.
+// Keeps the mesh around tips that grow further.
 #pragma once
 
 #include <optional>

@@ -29,10 +29,10 @@ void mark_grown_cells(const Mesh& before, GrownMesh& grown);
 /// near a path. Cells outside of the cavity keep their corners. They keep their numbers, too, unless there are fewer
 /// cells than before: then the last cells move to the lowest free numbers. New cells are triangles, also where
 /// quadrilaterals were. An end within a hundredth of `size` of the outer boundary is moved onto it and becomes
-/// on_boundary. An end as near to a ridge of another fracture joins that fracture in a junction. When an angle
-/// is below 25 degrees, further cavities are tried, and the cavity with the largest smallest angle is taken. Throws
-/// ExtensionError, before any work, for paths that check_extensions refuses, std::invalid_argument for options that are
-/// not positive, and std::runtime_error when the cavity cannot be meshed.
+/// on_boundary. An end as near to a ridge of another fracture joins that fracture in a junction. When an angle is below
+/// 25 degrees, further cavities are tried, and the cavity with the largest smallest angle is taken. Throws
+/// ExtensionError, before any work, for paths that check_extensions refuses, std::invalid_argument for a radius, size
+/// or growth that is not positive and for negative gap_edges, and std::runtime_error when the cavity cannot be meshed.
 GrownMesh extend_fractures(const Mesh& mesh, const std::vector<PathExtension>& extensions,
                            const CavityOptions& options);
 

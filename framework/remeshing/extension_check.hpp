@@ -8,7 +8,9 @@
 
 namespace sprekk {
 
-/// The least distance between a path and anything else, in edge lengths: a cell must fit in between.
+/// The least distance between a path and anything else, in edge lengths: a cell must fit in between. From itself, and
+/// from its own fracture, a path keeps this distance or a quarter of the length along the fracture in between,
+/// whichever is less.
 inline constexpr double least_gap = 0.5;
 /// An end nearer than this to the outer boundary, in edge lengths, is moved onto the boundary.
 inline constexpr double boundary_snap = 0.01;
@@ -27,9 +29,9 @@ std::vector<PathExtension> check_extensions(const Mesh& mesh, const std::vector<
                                             double size);
 
 /// Whether a straight step of a path, from `from` to `to`, comes so near to the outer boundary or to another fracture
-/// that check_extensions would soon refuse the path. That is nearer than 1.5 times the least gap, and nearer than the
-/// beginning of the path by more than half of what check_extensions allows. `beginning`: the old tip; `size` (m) as in
-/// check_extensions.
+/// that check_extensions would soon refuse the path. That is nearer than 1.5 times the least gap, and nearer than 0.95
+/// times the distance of the beginning of the path (check_extensions allows 0.9). `beginning`: the old tip; `size` (m)
+/// as in check_extensions.
 bool comes_too_near(const Mesh& mesh, int fracture, const Point& beginning, const Point& from, const Point& to,
                     double size);
 

@@ -15,7 +15,7 @@ struct HealedMesh {
   Mesh mesh;
   std::vector<int> face;           ///< per face: the same one of the given mesh; none where two walls have become one
   std::vector<int> fracture_cell;  ///< per fracture cell: the same one of the given mesh
-  std::vector<int> ridge;          ///< per fracture point: the same one of the given mesh
+  std::vector<int> ridge;          ///< per ridge: the same one of the given mesh
   /// Per extension: the fracture cells of the given mesh that have closed, from the anchor on, and where they were.
   std::vector<std::vector<int>> replaced;
   std::vector<std::vector<Segment>> scars;

@@ -1,4 +1,4 @@
-// What has come in the place of fracture cells that are no more.
+// Which new fracture cells lie in the place of those that were replaced.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Which points of fractures are the same in two meshes.
+// Which ridges are the same in two meshes.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace sprekk {
 
-/// Per fracture point of `mesh` the same one of `old`, or none, given the old cell (or none) of each of its fracture
-/// cells. Ends of the same cell are the same points; a fracture point of a junction is an old point if its two
-/// cells met before.
+/// Per ridge of `mesh` the same one of `old`, or none. `old_cell`: for each fracture cell of `mesh` the same one of
+/// `old`, or none. Ends of the same cell are the same ridges; a ridge of a junction is an old one if its two cells met
+/// before.
 std::vector<int> same_ridges(const Mesh& old, const Mesh& mesh, const std::vector<int>& old_cell);
 
 }  // namespace sprekk

@@ -11,9 +11,9 @@ namespace sprekk {
 /// Compares the error of each balance with the largest throughput of that balance so far.
 class CumulativeBalance {
  public:
-  /// `balances`: at the end of the step that is about to be accepted. `tolerance`: the part of what is moved to which
-  /// the schedule keeps the balances in each step. Where it is small only round-off can be missing; where nothing
-  /// moves, round-off is all that there is.
+  /// `balances`: at the end of the step that is about to be accepted. `tolerance`: the error of a balance over its
+  /// throughput that the schedule allows in a step. Where it is at most 1e-6, only round-off can be missing, and there
+  /// is no note.
   void note_step(const std::map<std::string, Balance>& balances, double tolerance, Notes& notes);
 
   /// State for checkpoints.

@@ -9,8 +9,8 @@ namespace sprekk {
 class InterruptGuard {
  public:
   InterruptGuard();
-  /// Restores the handlers of SIGINT and SIGTERM. SIGHUP and SIGPIPE stay harmless: nobody may read the messages at the
-  /// end of the run any more.
+  /// Gives SIGINT and SIGTERM their default handlers. SIGHUP and SIGPIPE are ignored: the reader of the messages at the
+  /// end of the run may be gone.
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;

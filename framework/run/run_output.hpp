@@ -43,7 +43,7 @@ class RunOutput {
   void write_history(const StepTime& step, int iterations, const std::vector<Quantity>& quantities);
   /// `figures`: all that events of this scene may have; the table appears with the first event.
   void write_events(const StepTime& step, const std::vector<Event>& events, const std::vector<Quantity>& figures);
-  /// Tells which tables somebody has removed; the run goes on with new ones.
+  /// Notes tables that were removed during the run, which goes on with new ones.
   void note_losses(Notes& notes) const;
   /// `equations`: the names of all that have a column.
   void write_iteration(const IterationRecord& record, const std::vector<std::string>& equations);

@@ -35,7 +35,8 @@ class StepAttempts {
   /// Makes one attempt and sets the status. Returns the outcome of the step when no other attempt is to follow.
   std::optional<Outcome> try_once(bool may_be_interrupted);
   StepTime next_step() const;
-  /// Why a part lets no step be as long as the smallest; empty where none forbids it. Collective.
+  /// Finds the longest step that all parts allow. Returns why it is below the smallest one, else an empty text.
+  /// Collective.
   std::string limit_steps();
   MeshGrowth::Outcome follow_growth();
   bool cut();

@@ -36,7 +36,7 @@ class Component : public Part {
 /// What a coupler is built from: the components that it stands between, asked for by capability.
 class CouplerContext {
  public:
-  /// `scene`: all components of the scene, of which the coupler stands between some.
+  /// `between`: the components that the coupler stands between; `scene`: all components of the scene.
   CouplerContext(std::string name, const Mesh& mesh, FieldStore& fields, std::vector<Component*> between,
                  std::vector<Component*> scene, double start_time, Origin origin);
 
@@ -86,7 +86,7 @@ class CouplerContext {
       if (dynamic_cast<Capability*>(component) && !std::ranges::count(between_, component)) return component->name();
     return {};
   }
-  /// Throws InputError if one of the components was not asked for.
+  /// Throws InputError if the coupler has not asked for one of the components.
   void check_all_used() const;
   /// Lets the coupler determine an input field; throws InputError if another coupler does.
   void determine(Field& input) const;

@@ -20,9 +20,9 @@ class Crossings {
   /// Adds the section to a spec. `key`: how the component calls the conductivity that may be given; `about` has its
   /// unit and a sentence.
   void declare(Spec& spec, const std::string& key, const About& about);
-  /// Throws InputError for a name that no fracture has, and for a fracture that goes through and is not between.
+  /// Throws InputError for a name that no fracture has, and for a `through` that is not among `between`.
   void check_names(const Mesh& mesh) const;
-  /// What fills each junction of the mesh. Throws InputError where two entries say it.
+  /// What fills each junction of the mesh. Throws InputError where two entries apply to one junction.
   std::vector<CrossingFill> fills(const Mesh& mesh) const;
   /// Notes entries without a crossing; `owner`: the name of the component.
   void note_input(const Mesh& mesh, const std::string& owner, Notes& notes) const;

@@ -30,7 +30,7 @@ class LawRegistry {
     std::function<Unread()> begin;
   };
 
-  /// With the names of the laws that are built in, and what they are: no other one may take them.
+  /// `built_in`: names of the built-in laws, which no registered law may take, and what they are.
   explicit LawRegistry(NamesWithDocs built_in = {}) : built_in_(std::move(built_in)) {}
 
   void add(Type type) {

@@ -9,7 +9,7 @@
 
 namespace sprekk {
 
-/// What the equations of a step say of one conserved quantity.
+/// The amounts of one conserved quantity in a step, by its equations.
 struct StepAmounts {
   double moved = 0;      ///< sum of the absolute amounts that were stored, supplied or let out, place by place
   double round_off = 0;  ///< of the numbers whose differences these amounts are

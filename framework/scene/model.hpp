@@ -41,15 +41,15 @@ class Model {
   void prepare(const StepTime& step);
   /// Prepares the first step, and throws InputError where nothing holds some balances of its equations. Collective.
   void require_held();
-  /// Attempts one step from the accepted state: prepares it and runs the schedule. If the step converges, the
-  /// current values are those at its end. The caller accepts or rewinds.
+  /// Attempts one step from the accepted state: prepares it and runs the schedule. If the step converges, the current
+  /// values are those at its end. The caller accepts or rewinds. Throws DataError.
   StepStatus attempt(const StepTime& step);
   void accept();
   void rewind();
 
-  /// Solves for the components of `start: settle`, everything else held, with data as they are at the start: for the
-  /// state that they would have after so long a time that nothing changes any more. Accepts the state and lets parts
-  /// count from there (CountsFromHere, CountsAmounts, KeepsTotals). Does nothing without it.
+  /// Solves for the steady state of the components of `start: settle`, with everything else held and data as they are
+  /// at the start. Accepts the state and lets parts count from there (CountsFromHere, CountsAmounts, KeepsTotals). Does
+  /// nothing without it.
   StepStatus settle_start();
 
   /// The steps of the schedule that let the mesh grow.
@@ -71,7 +71,7 @@ class Model {
   /// The solve of `start: settle`, where the scene has one.
   void build_settling(const ScheduleContext& context);
   void note_start();
-  /// Makes the present state the reference of all that is counted by changes.
+  /// Makes the present state the reference of all unknowns and amounts that are changes.
   void count_from_here(const SettledFields& settled);
   void check_outputs() const;
   /// Sets values to NaN where a component does not live (LivesInPart).
@@ -79,9 +79,9 @@ class Model {
   void check_determined() const;
   void check_stages() const;
   void check_data();
-  /// Turns the status of a step that has lost an amount of a conserved quantity into "not converged".
+  /// Makes the status of a step that has lost an amount of a conserved quantity "not converged".
   void refuse_losses(const std::map<std::string, Balance>& before, const StepTime& step, StepStatus& status) const;
-  /// Turns the status of a step that a part finds too long (LimitsStep) into "not converged".
+  /// Makes the status of a step that a part finds too long (LimitsStep) "not converged".
   void refuse_too_long(const StepTime& step, StepStatus& status) const;
   std::vector<OutputField> derived_output() const;  ///< what parts write beside their fields
 

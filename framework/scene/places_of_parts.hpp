@@ -12,11 +12,11 @@
 
 namespace sprekk {
 
-/// Finds the cells in which a component has its values: those of the fractures where all of its fields are on
-/// fractures, else those between them, as far as it lives there (LivesInPart).
+/// Finds the cells in which a component has its values: fracture cells where all of its fields are on fractures, else
+/// cells of the matrix; of these, the ones that it lives in (LivesInPart).
 class PlacesOfParts {
  public:
-  /// All of these have to stay as they are as long as this object is used.
+  /// All of these must outlive this object, unchanged.
   PlacesOfParts(const Mesh& mesh, const FieldStore& fields, const std::vector<std::unique_ptr<Component>>& components)
       : mesh_(mesh), fields_(fields), components_(components) {}
 

@@ -26,8 +26,7 @@ struct ProbeOptions {
 /// Measures one figure of a field, or of an output of a part (Part::output): a weighted sum of values, or the smallest
 /// or largest one.
 /// - At a point of the matrix: a quadratic fit to the cells around it (quadratic_fit); for fields on nodes and faces
-/// the
-///   linear value in the cell of the point.
+///   the linear value in the cell of the point.
 /// - At a point of a fracture: the value of a polynomial along it (along_fracture), with the sign that all its cells
 ///   have; for a choice that of the cell.
 /// - Over a fracture or region: the mean, integral, smallest or largest value.

@@ -23,7 +23,7 @@ struct PartType {
   std::string type;
   std::function<Spec()> spec;  ///< with its defaults, for `explain` and the schema
   std::function<Builder(const Node&, const ReadContext&)> read;
-  /// For a type of coupler that a scene has not: adds notes on what the user may miss between these components.
+  /// For a type of coupler that a scene does not use: adds notes on what the user may miss between these components.
   std::function<void(const std::vector<Component*>&, Notes&)> note_absence;
 };
 using ComponentType = PartType<ComponentBuilder>;
@@ -33,7 +33,7 @@ using CouplerType = PartType<CouplerBuilder>;
 class Registry {
  public:
   static Registry& instance();
-  void add(ComponentType type);  ///< throws std::logic_error for a type that exists
+  void add(ComponentType type);  ///< refuses a type that exists (refuse_registration)
   void add(CouplerType type);
   const std::vector<ComponentType>& components() const { return components_; }  ///< sorted by type
   const std::vector<CouplerType>& couplers() const { return couplers_; }

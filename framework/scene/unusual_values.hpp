@@ -23,8 +23,8 @@ struct PropertyValue {
 };
 
 /// The values of all properties with a usual range that a scene gives: numbers, and all parts of a datum (by region, in
-/// windows, in tables). Of an expression it is the most unusual value in the cells that it is for, at the beginning, in
-/// the middle and at the end of the time for which it holds.
+/// windows, in tables). For an expression it is the most unusual value in its cells, at the beginning, in the middle
+/// and at the end of the time in which it holds.
 std::vector<PropertyValue> properties_of(const Scene& scene, const PlacesOfParts& places);
 
 /// Adds a note for each value outside of its range. Where all values are of order one, except for widths and

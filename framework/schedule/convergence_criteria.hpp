@@ -18,7 +18,7 @@ namespace sprekk {
 struct CriterionOptions {
   std::optional<double> residual, relative;
   std::optional<std::string> change_of, residual_of, absolute;
-  /// The bound of a residual, of all equations or of one, if it is one.
+  /// The bound of the residual, of all equations or of one; nothing for a condition on changes.
   std::optional<double> of_residual() const { return residual_of ? relative : residual; }
   Origin origin, field_origin, absolute_origin;
   Spec spec();
@@ -35,7 +35,7 @@ struct UntilOptions {
   double tightest() const;
   /// The largest bound of the residual with which an iteration may end; only where `bounds_residual`.
   double loosest() const;
-  /// Whether no iteration ends without a bound of the residual.
+  /// Whether each iteration ends with a bounded residual of all equations.
   bool bounds_residual() const;
   /// Throws InputError for conditions on a residual, which an iteration over substeps does not have.
   void require_changes() const;
@@ -44,12 +44,12 @@ struct UntilOptions {
 /// The conditions of one iteration: all of `all`, and one of `any` where there are some.
 class ConvergenceCriteria {
  public:
-  /// `fields`: those that are solved inside. Throws InputError for others, and for amounts in another unit than the
-  /// field's.
+  /// `fields`: those that are solved inside. Throws InputError for others, and for amounts that are not positive or in
+  /// another unit than the field's.
   ConvergenceCriteria(const UntilOptions& options, const std::vector<Field*>& fields);
   /// Whether the iteration has converged after a pass. `residual_holds`: whether the coupled residual is below a bound.
-  /// `residuals`: of each equation, over its largest term. `before`: the values of all fields before the pass. In the
-  /// first pass nothing is known of changes that would vanish by themselves.
+  /// `residuals`: of each equation, over its largest term. `before`: the values of all fields before the pass.
+  /// Conditions on changes never hold in the first pass, after which nothing is known of how changes fall.
   bool hold(int pass, const std::function<bool(double)>& residual_holds,
             const std::vector<std::pair<std::string, double>>& residuals, const std::vector<Vector>& before) const;
   bool need_changes() const { return need_changes_; }

@@ -11,9 +11,9 @@
 
 namespace sprekk {
 
-/// Solves for all unknowns of an iteration at once, by Newton's method, where passes have not converged. Passes would
-/// have converged to the same solution, so the answer is no other. The user is told: a note says why and in how many
-/// steps, and coupling.csv has the iterations under "fallback".
+/// Solves for all unknowns of an iteration at once, by Newton's method, where passes have not converged. Converged
+/// passes would have given the same answer. The user is told: a note says why and in how many steps, and coupling.csv
+/// has the iterations under "fallback".
 class FallbackSolve {
  public:
   FallbackSolve(std::vector<Field*> unknowns, const NewtonOptions& newton, const LinearOptions& linear,

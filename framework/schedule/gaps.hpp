@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-/// About the steps of a run: `most` of them, equally long, where there are more.
+/// Equally long steps that cover a run: as many as the run has by its standard step, but at most `most`.
 std::vector<StepTime> sampled_steps(const TimeOptions& time, int most = 1000);
 
 /// Notes fields that the schedule solves for in some steps and leaves out in others, where no `when` holds.

@@ -29,13 +29,14 @@ struct GrowOptions {
 };
 
 /// Asks the component for the load of its tips, and lets them grow. Growth starts when it is due: a step at whose end
-/// the load of a tip that has not grown yet is above 1 + overshoot is refused, with the step size that would just have
-/// reached that load. A step in which tips grow further than the mesh can follow is refused as well. No step is cut
-/// below `cut` of the standard step. extensions() has the paths that the mesh is to take over; the run changes the mesh
-/// between two attempts.
+/// the load of a tip that has not grown yet is above 1 + overshoot is refused, with the step size at whose end the load
+/// is expected to be 1 + overshoot/2. A step in which tips grow further than the mesh can follow is refused as well. No
+/// step is cut below `cut` of the standard step. extensions() has the paths that the mesh is to take over; the run
+/// changes the mesh between two attempts.
 class GrowStep : public ScheduleStep {
  public:
-  /// Throws InputError when the component has nothing that grows.
+  /// Throws InputError when the component has nothing that grows or no loads of its tips, and when `settle` lacks a
+  /// component that another one needs (Part::dependences).
   GrowStep(const GrowOptions& options, const ScheduleContext& context);
   StepStatus run(const StepTime& step) override;
   std::vector<const Field*> unknowns() const override { return {}; }
@@ -53,10 +54,10 @@ class GrowStep : public ScheduleStep {
   };
   void choose(Holding holding) { holding_ = holding; }
   bool is_held() const { return is_held_; }  ///< in the last attempt
-  /// In a trial of a search for growth within the step, whose other tips grow once it is the right one: run() only
-  /// examines the tips that are searched for.
+  /// For trials of a search for growth within the step: run() only examines the tips that are searched for. All other
+  /// tips grow once the right trial has been found.
   void examine_followed_only(bool only) { followed_only_ = only; }
-  /// At rest the step does nothing, and all that it has found in its last attempt stays.
+  /// While it `rests`, run() does nothing, and the results of the last attempt stay.
   void rest(bool rests) { rests_ = rests; }
   /// Whether the step was run in an attempt at this time step: a `when` may leave it out.
   bool was_run(const StepTime& step) const { return last_ && last_->start == step.start && last_->dt == step.dt; }
@@ -65,7 +66,7 @@ class GrowStep : public ScheduleStep {
   bool repeats_step() const { return options_.update == repeat_step; }
   const std::vector<PathExtension>& extensions() const { return extensions_; }
   CavityOptions cavity() const { return growing_->cavity(); }
-  /// Whether a growth event still shows at the tips.
+  /// Whether the state at the tips still changes after a growth event.
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
   /// Whether growth in the last attempt is at its end, and has settled: no tip that grew was above the load of growth
   /// by more than the overshoot, and the state at the tips is as before, or drifts evenly. Tips that are closed, or
@@ -81,7 +82,8 @@ class GrowStep : public ScheduleStep {
  private:
   /// Throws UnsolvedGrowth.
   StepStatus look_and_grow(const StepTime& step);
-  /// Refuses a step, and asks for one at whose end the load is just above 1.
+  /// Refuses a step, and asks for one at whose end the load is 1 + overshoot/2. `before`, `now`: the loads at its start
+  /// and at its end.
   StepStatus refused(const std::string& reason, const StepTime& step, double before, double now);
   /// The load of the tips, and whether they grow with the state held.
   Growing::Load examine(const StepTime& step);
@@ -90,7 +92,7 @@ class GrowStep : public ScheduleStep {
   SolveStep settle_;
   double smallest_step_;  ///< s; no step is refused below it
   Growing::Load load_;
-  /// A step that was refused since its load came too far above 1.
+  /// A step that was refused because its load came too far above 1.
   struct Refusal {
     double start, dt, before, load;  ///< s, s, loads of the tip for which the step was refused at its start and end
   };

@@ -39,8 +39,9 @@ class FrontSearch {
   /// After `found` the trial is the one to go on with; `again` where a tip that has grown now is to be searched for,
   /// too.
   virtual Verdict conclude(Growing& trial, const StepTime& step) = 0;
-  /// The mesh cannot take a path, an index into paths(). `again`: its tip stops for good, and the next trial is without
-  /// it; `refused`: the search had come there from paths that the mesh could take, and the step is too long for it.
+  /// The mesh cannot take a path, an index into paths(). `again`: the next trial is without it, since its tip stops for
+  /// good, or its tip jumps less far; `refused`: the mesh could take earlier paths of the search, so the step is too
+  /// long.
   virtual Verdict give_up(int path, const std::string& why) = 0;
   /// The step with the last paths could not be solved. Whether there are others, with less growth, to try instead.
   virtual bool retreat() = 0;
@@ -68,11 +69,11 @@ class Growing {
     double onset_accepted = 0;  ///< the same at the start of the step
     /// Largest relative change over the step of the state at the tips that a growth event disturbs.
     double unsettled = 0;
-    /// The same for the part of the change that the rate of the last step does not foretell: 0 where the state drifts
+    /// The same for the part of the change that the rate of the last step does not predict: 0 where the state drifts
     /// evenly, as under an injection. At most `unsettled`.
     double uneven = 0;
   };
-  /// Throws InputError where nothing tells it what loads its tips.
+  /// Throws InputError where no part gives it the loads of its tips.
   virtual void require_loads() const {}
   virtual Load examine(const StepTime& step) = 0;
   /// Examines only the tips whose growth search_front() finds: the others do not count in trials.
@@ -118,14 +119,14 @@ class Growing {
   virtual std::vector<PendingPath> pending_paths() const { return {}; }
   /// How the mesh changes around a path that it takes over.
   virtual CavityOptions cavity() const = 0;
-  /// A number that tells whether the meshes that the component has of its own have the same topology; 0 if it has none.
+  /// A hash of the topology of the meshes that the component itself keeps; 0 if it keeps none.
   virtual std::uint64_t topology() const { return 0; }
   /// Whether the systems that settle a state after growth may be so nearly singular that a solver which is quick for
   /// small systems loses digits.
   virtual bool settling_costs_digits() const { return false; }
 };
 
-/// A component with fractures that stay as they are, for whoever names it in a `grow` step.
+/// A component whose fractures cannot grow: it gives the reason to a user who names it in a `grow` step.
 class NotGrowing {
  public:
   virtual ~NotGrowing() = default;

@@ -10,8 +10,9 @@ namespace sprekk {
 
 /// A field p waits while a solve finds c; its balance stores s p + b c in each cell, besides what cells exchange. If it
 /// kept this amount, p would follow by dp = −b dc/s. So each equation R of the solve that contains p gets the term
-/// −(dR/dp)(b/s) dc, local in c, which vanishes with convergence. With s the row sums of what leaves all balances
-/// together or stays (Operator::leaving), which is what a change of p that is the same everywhere stores.
+/// −(dR/dp)(b/s) dc, local in c, which vanishes with convergence. s has the row sums of the derivatives of the balances
+/// by p, without exchanges (Operator::leaving): what a change of p that is the same everywhere stores in each cell or
+/// lets out.
 class HeldAmounts {
  public:
   /// `held`: the fields p; `solved`: those of the solve.

@@ -35,9 +35,9 @@ struct IterateOptions {
 /// Repeats the steps inside, accelerated if wanted. Unless the scene says otherwise, the iteration has converged when
 /// the residual of all equations that are solved inside, without stabilization, is small against their own terms; small
 /// updates do not count. Where steps inside take substeps the equations of a whole step are not fulfilled, and the
-/// estimated error of all fields takes the place of the residual: what a pass changes them by, times ρ/(1 − ρ), with ρ
-/// the factor from the last pass to this one; changes by round-off do not count. Passes end early where their changes
-/// only grow.
+/// estimated error of all fields takes the place of the residual: the change by a pass, times ρ/(1 − ρ), with ρ the
+/// ratio of this change to that by the pass before; changes by round-off do not count. Passes end early where their
+/// changes only grow.
 ///
 /// Where passes do not converge, the step is solved for all of the unknowns at once, unless the scene says otherwise
 /// (FallbackSolve). Only where that does not converge either is it refused. An iteration over substeps has no such
@@ -64,13 +64,13 @@ class IterateStep : public ScheduleStep, public KeepsState {
  private:
   class Passes;  // iterate_passes.cpp
   StepStatus make_passes(const StepTime& step);
-  /// Counts what was exchanged with the fields of all solves together, whose equations hold: a solve has counted what
-  /// it knew of the others when it was its turn. What passes have left of balances is counted later (CountsLater).
+  /// Counts exchanged amounts anew with the final fields of all solves: each solve has counted them with the values
+  /// that the other fields had at its turn. What passes have left of balances is counted later (CountsLater).
   StepStatus converged(const StepTime& step, const StepStatus& status);
   ResidualCheck coupled_residual(const StepTime& step) const;
   void choose_scales();
-  /// Where steps inside take substeps: what round-off alone may change of the values, by the equations of the whole
-  /// step.
+  /// Where steps inside take substeps: finds by how much round-off alone may change the values, from the equations of
+  /// the whole step.
   void find_round_off(const StepTime& step);
   /// The largest change of a field beyond round-off; `change`: of its values.
   double largest_change(std::size_t field, const Vector& change) const;
@@ -85,7 +85,7 @@ class IterateStep : public ScheduleStep, public KeepsState {
   /// The status of passes that do not converge. `what`: what they do instead; `factor`: by which changes grow from pass
   /// to pass.
   StepStatus without_end(const StepTime& step, const std::string& what, double factor, int pass);
-  /// What may help passes that diverge, of what the scene has not written yet.
+  /// Advice for passes that diverge: options that the scene does not use yet.
   std::string remedies() const;
   std::string most_changed(const Vector& change) const;  ///< the field whose part of a scaled change is largest
   Vector scaled_values() const;

@@ -14,8 +14,8 @@ struct StepTooLong {
   std::string why;
 };
 
-/// Capability: bounds the next step, for what is explicit in time, or accurate over short steps only. It may also
-/// refuse a step that has converged, if the values at its end show that it was too long.
+/// Capability: bounds the next step, for terms that are explicit in time, or accurate over short steps only. It may
+/// also refuse a step that has converged, if the values at its end show that it was too long.
 class LimitsStep {
  public:
   virtual ~LimitsStep() = default;

@@ -126,20 +126,22 @@ class Newton {
   StepStatus follow_path(const StepTime& step, SearchMode mode);
   /// Releases held coefficients in small shares from the end of a path, with an attempt at each share.
   StepStatus release_coefficients(const StepTime& step, const std::vector<Vector>& start);
-  /// Motion that runs away.
+  /// A loss of stability.
   struct Loss {
     Softening* part;  ///< whose places move
     double time;      ///< s
     std::string told;
   };
-  /// Whether the free values of all parts have lost their stability, also over the shortest time. The derivatives of
-  /// the present values are factorized; afterwards they may be those of a very short step. `time`: when, s.
+  /// Whether the free values of all parts have lost their stability, also in a step so short that nothing flows. To be
+  /// called when the derivatives at the present values are factorized; afterwards those of that short step may be.
+  /// `time`: when, s.
   std::optional<Loss> find_loss(const StepTime& step, double time);
-  /// The same with the derivatives that are factorized.
+  /// The same with the derivatives that are factorized already.
   std::optional<Loss> find_loss(double time);
   /// Nothing where they are not among the unknowns.
   std::optional<CondensedUnknowns> condensed_to(const FreeValues& values) const;
-  /// After a solution in which places have lost strength: false where the way to it has been stable all along.
+  /// After a solution in which parts have lost strength: false where all states between the start of the step and the
+  /// solution are known to be stable.
   bool may_have_passed_loss(const StepTime& step);
   /// After a solution: looks whether a path leads to it. If it leads to another one, that is taken.
   void follow_softening(const StepTime& step);
@@ -172,7 +174,7 @@ class Newton {
   std::optional<Loss> lost_;           ///< where the last path has ended
   std::optional<Loss> passed_;         ///< by the solution of the step `passed_in_`
   StepTime passed_in_;
-  StepTime last_failed_path_;  ///< the last step whose path failed; a hardly shorter step does not try again
+  StepTime last_failed_path_;  ///< the last step whose path failed; no path is tried in a step that is hardly shorter
   const Stabilization* stabilization_ = nullptr;
   const Responses* responses_ = nullptr;
   std::map<const Field*, Vector> start_;

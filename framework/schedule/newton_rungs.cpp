@@ -1,4 +1,4 @@
-// The rungs of Newton's method: what is tried for a step, the quickest first, the surest last
+// The attempts of Newton's method at a step: the quickest first, the surest last
 // (docs/numerics/coupling_and_time.md#newton).
 #include <fmt/format.h>
 

@@ -45,7 +45,8 @@ constexpr double looser_for_balances = 100;
 /// round-off of those terms. Every equation is measured by its own terms, so the test needs no scales from the user and
 /// does not depend on units. Where the system puts the sum of balances in the place of one (BlockSystem::use_sums), the
 /// sum of the balances of each field is checked like an equation, too. Where one row has the sum of several fields, the
-/// round-off of what the other rows exchange is that of the sums of single fields as well, and their total has to hold.
+/// sums of single fields may be off by the round-off of what the other rows exchange; then the total of all fields has
+/// to hold.
 ///
 /// What rows exchange may be any multiple of what they store, and a residual that is small against the exchange may be
 /// as large as all of the storage. So the balances of a conserved quantity are also compared with their throughput
@@ -54,10 +55,10 @@ constexpr double looser_for_balances = 100;
 /// left out: fixed values let an unknown amount in.
 ///
 /// One fracture may conduct any multiple of what another one stores. So each balance of an interface, where fluxes are
-/// unknowns, is compared with its own row as well, by the componentwise backward error (Oettli and Prager 1964;
-/// Arioli, Demmel and Duff 1989): |r_i| is at most 100 × tolerance times (|A| |x|)_i plus the throughput of the row, or
-/// the round-off of these terms. Of values of the cell itself, from which what it stores follows, x is the change in
-/// the step: what a cell holds is none of its terms. Collective.
+/// unknowns, is compared with its own row as well, by the componentwise backward error (Oettli and Prager 1964; Arioli,
+/// Demmel and Duff 1989): |r_i| is at most 100 × tolerance times (|A| |x|)_i plus the throughput of the row, or the
+/// round-off of these terms. For values of the cell itself x is the change in the step: what a cell stores in the step
+/// follows from it, and what it held before is no term of its balance. Collective.
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance);
 
 }  // namespace sprekk

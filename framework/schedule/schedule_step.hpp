@@ -35,11 +35,11 @@ class ScheduleStep {
   virtual ~ScheduleStep() = default;
   /// Advances its fields' current values to the end of the time step. Never throws for lack of convergence.
   virtual StepStatus run(const StepTime& step) = 0;
-  /// The same, but where steps inside are run one after the other it ends behind the first one after which `is_enough`.
+  /// The same, but a sequence of steps ends with the first one after which `is_enough` returns true.
   virtual StepStatus run_until(const StepTime& step, const std::function<bool()>& /*is_enough*/) { return run(step); }
   /// The fields that this step, or a step inside it, solves for.
   virtual std::vector<const Field*> unknowns() const = 0;
-  /// How many systems a time step solves in turn, each without regard to those behind it: more than one is a split
+  /// How many systems a time step solves in turn, each without the results of later ones: more than one is a split
   /// without iteration.
   virtual int systems_in_turn(const StepTime& step) const = 0;
   /// The fields of the first of these systems.
@@ -74,8 +74,8 @@ class ScheduleStep {
     for (const ScheduleStep* child : children()) largest = std::max(largest, child->largest_imbalance());
     return largest;
   }
-  /// How many times as large as the error of one solve the error of an amount over the step may be: solves inside that
-  /// follow one another each add theirs.
+  /// By which factor the error of an amount over the step may exceed that of one solve: solves inside that follow one
+  /// another each add theirs.
   virtual double summed_errors() const {
     double largest = 1;
     for (const ScheduleStep* child : children()) largest = std::max(largest, child->summed_errors());

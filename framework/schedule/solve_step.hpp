@@ -36,8 +36,8 @@ class SolveStep : public ScheduleStep {
     iterated_ = unknowns;
     newton_->iterate_at_least_once();
   }
-  /// Throws InputError for a stabilization that has no effect.
   bool is_stabilized() const override { return options_.stabilization != "none"; }
+  /// Throws InputError for a stabilization that has no effect.
   void check() const override;
   void require_held(const StepTime& step) const override;
   double largest_imbalance() const override { return looser_for_balances * options_.newton.residual; }
@@ -52,8 +52,8 @@ class SolveStep : public ScheduleStep {
   /// The pairs of fields for which the stabilization adds the Schur complement of the waiting unknowns.
   ResponseOptions wanted_responses() const;
   std::vector<const Field*> waiting() const;
-  /// The waiting fields that can answer. Fields of a component that depends on one which this step solves for cannot:
-  /// that one would be held.
+  /// The waiting fields that can respond: not those of a component that has no solution while a component of this step
+  /// is held (Part::dependences).
   std::vector<const Field*> answering() const;
   const Responses& responses(const StepTime& step);
   /// The waiting fields whose balances the stabilization lets keep their amounts (HeldAmounts).

@@ -136,7 +136,7 @@ Spec TimeOptions::spec() {
     scheme = scheme_name == "sdirk2" ? TimeScheme::sdirk2 : TimeScheme::backward_euler;
     if (end <= start)
       throw InputError(node.origin, "the run has no duration", "its end is not after its start", "raise 'end'");
-    constexpr double most_steps = 1e9;  // no life is long enough
+    constexpr double most_steps = 1e9;  // more than any run can take
     if ((!adaptive && (end - start) / step > most_steps) || start + step == start)
       throw InputError(node.origin, "the step of " + quantity_text(step, "s") + " is too small",
                        "the run is " + quantity_text(end - start, "s") + " long", "raise 'step'");

@@ -24,7 +24,7 @@ struct TimeOptions {
   std::optional<double> smallest;  ///< s; a rejected step is not cut below it
   bool adaptive = false;
   double largest = 0;               ///< s, of adaptive steps
-  double grow = 1.5, shrink = 0.5;  ///< of adaptive steps, by ten days of configs/tutorial/first_scene.yaml
+  double grow = 1.5, shrink = 0.5;  ///< of adaptive steps; tried on ten days of configs/tutorial/first_scene.yaml
   /// A column of history.csv that has reached a value.
   struct StopTerm {
     std::optional<std::string> of = {};        ///< the quantity, without its unit
@@ -89,15 +89,15 @@ class StepController {
   /// Makes the next step shorter: `retry` (s), if that is given. Returns false when no shorter step is allowed.
   bool rejected(const StepTime& step, double retry = 0);
   /// Holds all steps at this size (s) until `release`. Then the standard size returns, but a step ends when the next
-  /// hold is expected. A hold begins when the level is 1; the level is assumed to rise as fast as in the last pause,
-  /// from a release to the next hold. Such a step has at least a tenth of the standard size.
+  /// hold is expected; such a step has at least a tenth of the standard size. A hold begins when the level is 1; the
+  /// level is assumed to rise as fast as in the last pause, from a release to the next hold.
   void hold(double step, double level);
   void release(double level);
   /// Holds and releases steps for events that are not expected to recur.
   void hold(double step);
   void release();
-  /// Takes the level after a step. A hold that is overdue is expected anew, from the rise since the release, but each
-  /// time after at least twice the time: a level may come to rest below 1.
+  /// Takes the level after a step. A hold that is overdue gets a new expected time, from the rise since the release,
+  /// but after at least twice the last delay: a level may come to rest below 1.
   void observe(double level);
   double held() const { return held_; }  ///< s, 0 when nothing is held
   const FailedStep& failed() const { return failed_; }

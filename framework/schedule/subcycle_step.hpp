@@ -26,7 +26,7 @@ struct SubcycleOptions {
 /// are put back: the step as a whole is accepted by the step controller.
 ///
 /// With two stages (TimeScheme::sdirk2) each substep is two of backward Euler. The second one starts from accepted
-/// values that are extrapolated from what the first one has changed, except for fields of which the path counts
+/// values that are extrapolated from what the first one has changed, except for fields that depend on their path
 /// (FieldSpec::is_path_dependent).
 ///
 /// Inside an iteration every pass takes all substeps anew, against the latest course of the waiting fields (waveform
@@ -87,7 +87,7 @@ class SubcycleStep : public ScheduleStep {
   std::vector<Field*> waiting_;                ///< solved for outside, and the cumulative balances kept of them
   std::shared_ptr<const int> pass_;            ///< of the iteration around it, nullptr without one
   std::vector<Values> last_begin_, last_end_;  ///< of each piece: where it began and ended in the last pass
-  Values moved_;  ///< by how much others, an accelerator say, have changed the fields since the end of the last pass
+  Values moved_;  ///< changes of the fields since the end of the last pass, by an accelerator for example
 };
 
 }  // namespace sprekk

@@ -44,14 +44,15 @@ struct ResponseOptions {
 /// would follow c by dw = −(dW/dw)^-1 dW/dc dc. So the equation R gets the term (dR/dw) dw: a Schur complement, with
 /// the derivatives of the present iterate. Without the term a pass may multiply an error of c by any factor, where R or
 /// c alone hardly resists; with the term a pass is a step of Newton's method for c. At convergence dc = 0, so the term
-/// changes no answer.
-/// Where more than two systems are solved in turn, W is not zero at the start of a solve: the waiting unknowns will
-/// change by −(dW/dw)^-1 W as well. This is the pending part, which vanishes with convergence, too. It is left out
-/// where steps of the iteration take substeps: the equations W then hold over other steps than that of the solve. Some
-/// of w are fluxes q on interfaces in balances R, which follow from potentials on either side. A change dc of a
-/// potential has the round-off of c, and with a large dq/dc that of the flux would be more than a balance may miss. So
-/// the solve has unknowns q' for these, with the equation q' = q + (dq/dc) dc + pending, and R contains q' with all of
-/// its digits; what it finds is the new q.
+/// changes no answer. Where more than two systems are solved in turn, W is not zero at the start of a solve: the
+/// waiting unknowns will change by −(dW/dw)^-1 W as well. This is the pending part, which vanishes with convergence,
+/// too. It is left out where steps of the iteration take substeps: the equations W then hold over other steps than that
+/// of the solve.
+///
+/// Some of w are fluxes q on interfaces, which enter balances R and follow from the potentials on either side. A change
+/// dc of a potential has the round-off of c, and where dq/dc is large the flux would have more round-off than a balance
+/// may miss. So the solve has unknowns q' for these, with the equation q' = q + (dq/dc) dc + pending. R contains q'
+/// with all of its digits, and the q' that the solve finds is the new q.
 class WaitingResponse {
  public:
   /// `waiting`: the unknowns of the iteration that the solve does not solve for.

@@ -9,8 +9,8 @@
 
 namespace sprekk {
 
-/// A command in front of that of a run, or a template in which `{command}` stands for all of it: one word, quoted for a
-/// shell, with the folder to work in and the settings of the environment.
+/// A command that is put before that of a run, or a template in which `{command}` stands for the command of the run:
+/// one word, quoted for a shell, with the folder to work in and the settings of the environment.
 class Launcher {
  public:
   /// `text`: words between blanks; quotes keep a word together. Throws InputError for an empty text, and for a quote

@@ -14,7 +14,7 @@ class Closure {
   struct Value {
     double closure, by_pressure;
   };
-  /// The closure under the normal pressure −f_n of the contact, Pa. Below zero the function goes on linearly.
+  /// The closure under the normal pressure −f_n of the contact, Pa. Below zero the function is continued linearly.
   virtual Value at(double pressure) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// How friction follows from what walls have done and bear.
+// The coefficient of friction as a function of the state of the walls.
 #pragma once
 
 #include "components/contact/laws/no_input.hpp"
@@ -11,8 +11,8 @@ namespace sprekk::contact {
 class FrictionLaw {
  public:
   virtual ~FrictionLaw() = default;
-  /// The coefficient, not negative, and its derivatives by the state, where a scene gives `friction` for this place.
-  /// The state never is below zero.
+  /// The coefficient, not negative, and its derivatives by the state, which is not negative. `friction`: what the scene
+  /// gives as friction for this place.
   virtual OfWalls at(double friction, const WallState& state) const = 0;
   /// Whether it changes with this variable.
   virtual bool depends_on(WallVariable variable) const = 0;

@@ -8,7 +8,8 @@
 
 namespace sprekk::contact {
 
-/// What walls hold at a path q (m), and the derivatives by q: |f_t| <= cohesion − friction f_n, f_n <= tension.
+/// The strength of walls at a path q (m): |f_t| <= cohesion − friction f_n, f_n <= tension (Pa), and its derivatives by
+/// q.
 struct Strength {
   double friction, cohesion = 0, tension = 0;
   double friction_by_path = 0, cohesion_by_path = 0, tension_by_path = 0;

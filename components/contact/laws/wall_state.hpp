@@ -6,8 +6,8 @@
 
 namespace sprekk::contact {
 
-/// What walls have done and bear: slip (m, its size), path (m, of slip and opening), slip rate (m/s), and the pressure
-/// between them (Pa, not negative).
+/// The state of walls: slip (m, its size), path (m, of slip and opening), slip rate (m/s), and the pressure between
+/// them (Pa, not negative).
 using WallState = std::array<double, 4>;
 /// Their places in it.
 enum WallVariable : std::size_t { slip_of_walls, path_of_walls, slip_rate_of_walls, pressure_of_walls };

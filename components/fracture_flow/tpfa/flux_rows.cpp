@@ -1,4 +1,4 @@
-// The rows of the fluxes along fractures: through a point of two cells, at an open end, where fractures meet.
+// The rows of the fluxes along fractures: through a ridge between two cells, at an open end, and where fractures meet.
 #include <algorithm>
 #include <array>
 

@@ -7,7 +7,7 @@
 
 namespace sprekk::fracture_flow {
 
-/// of_flux Q + drop = 0, one for each point of the fractures, with derivatives.
+/// of_flux Q + drop = 0, one row for each ridge, with derivatives.
 struct FractureFlow::FluxRows {
   double dt;
   Vector of_flux, drop;

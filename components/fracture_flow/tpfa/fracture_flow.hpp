@@ -33,15 +33,16 @@
 
 namespace sprekk::fracture_flow {
 
-/// Unknowns: the pressure p of every fracture cell, and the flux Q through every point between them, from its first to
-/// its second cell (m^2/s). Each row of p balances the volume of fluid of one cell over the step (m^2):
+/// Unknowns: the pressure p of every fracture cell, and the flux Q through every ridge between them, from its first to
+/// its second cell (m^2/s, in space m^3/s). Each row of p balances the volume of fluid of one cell over the step (m^2;
+/// in space m^3, with the area of the cell for L):
 ///   L (rho a − rho_old a_old)/rho_mean + dt (sum of Q out of it) − dt q = 0,
 /// the change of the mass of fluid over the mean density of the step (stored_fluid.hpp; with `cavitation`,
-/// cavitation.cpp, a part of a is empty),
-/// and each row of Q is Q = C (p_first − p_second), C from the resistances of the half cells in series
-/// (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an unknown a fracture may
-/// conduct 1e12 times better than rock without loss of digits: Q is not computed from a difference of nearly equal
-/// pressures, and the flux out of one cell enters the next one to the bit. Properties are those at the end of the step.
+/// cavitation.cpp, a part of a is empty), and each row of Q is Q = C (p_first − p_second), C from the resistances of
+/// the half cells in series (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an
+/// unknown a fracture may conduct 1e12 times better than rock without loss of digits: Q is not computed from a
+/// difference of nearly equal pressures, and the flux out of one cell enters the next one to the bit. Properties are
+/// those at the end of the step. Rates and volumes of members have the units of a plane.
 ///
 /// Where the transmissivity is a formula of the state, the hydraulic aperture of a half cell follows from the aperture
 /// there, and from what else the formula names in its cell. `by_aperture` in lists and vectors of derivatives then has
@@ -64,13 +65,14 @@ class FractureFlow : public Component,
                      public NotesStart,
                      public TakesState {
  public:
+  /// Throws InputError for a scene without fractures, and for fractures, sides and places that do not exist.
   FractureFlow(const ComponentContext& context, const Options& options);
 
   /// Cells that have grown start with the pressure of their neighbours; a parameter says whether they start with fluid.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
   void evaluate_data(const StepTime& step) override;
-  /// A bound of the pressure turns active within steps, which leaves no second order.
+  /// A bound of the pressure becomes active within steps, so that no scheme is of second order there.
   bool allows_stages() const override { return !options_.cavitation; }
   void take_stages(bool are_stages) override {
     entering_density_ = are_stages ? EnteringDensity::at_end : EnteringDensity::of_step;
@@ -152,7 +154,7 @@ class FractureFlow : public Component,
   void prepare_formula();
   ConductionState state_in(int cell) const;  ///< the aperture is not set
   Transmissivity transmissivity(int cell) const;
-  /// The same for the half of the cell at one of its points.
+  /// The same for the half of the cell at one of its ridges.
   Transmissivity transmissivity(int cell, int point) const;
   Transmissivity cubic_law(int cell) const;
   bool is_held() const { return held_aperture_.size() > 0; }
@@ -160,7 +162,7 @@ class FractureFlow : public Component,
   Hydraulic hydraulic_aperture(int cell, double present, double held) const;
   Hydraulic hydraulic_aperture(int cell) const;
   Hydraulic hydraulic_by_law(int cell, ConductionState state) const;
-  /// A point through which fluid can flow.
+  /// A ridge through which fluid can flow.
   struct Link {
     int ridge;
     int first, second;             ///< cells; second is none at an open end with a prescribed pressure
@@ -184,7 +186,7 @@ class FractureFlow : public Component,
   Conductance conductance_at_end(const Link& link) const;
   /// The conductance by the cubic law, from the apertures of the half cells.
   Conductance conductance_by_opening(const Link& link) const;
-  /// The hydraulic aperture of a half cell, with the derivatives of its aperture by those of both cells at a point.
+  /// The hydraulic aperture of a half cell, with the derivatives of its aperture by those of both cells at a ridge.
   struct HydraulicHalf {
     Hydraulic hydraulic;
     std::array<double, 2> by_aperture;
@@ -206,7 +208,7 @@ class FractureFlow : public Component,
   Vector walls_of_crossings() const;
   /// Leads the halves through what fills the crossing.
   void pass_crossing(std::size_t junction, const Vector& walls, std::vector<JunctionFluxes::Half>& halves) const;
-  /// K (m^3) of the half of a cell at a point where the transmissivity is given.
+  /// K (m^3) of the half of a cell at one of its ridges, where the transmissivity is given.
   double given_transmissivity(int cell, int point) const;
   double pressure_drop(const Link& link) const;
   bool is_shut(const Link& link) const;  ///< an end that lets out only, where fluid would enter
@@ -285,7 +287,7 @@ class FractureFlow : public Component,
     double level = 0;                                 ///< Pa, of the point above the mean of these cells
     double bore = 0;  ///< in space, with a radius r: ln(r_e/r)/(2 pi), with the radius r_e that the cells stand for
   };
-  /// How much higher the pressure at the point is than the mean of its cells, for each of its rate.
+  /// By how much the pressure at the point exceeds the mean of its cells, for each unit of its rate.
   Rise rise_of(const OpenPoint& point) const;
   /// OpenPoint::bore. Throws InputError where the cells are too small, or at the rim of their fracture.
   double bore_at(const FracturePlace& where, int cell);

@@ -1,11 +1,11 @@
-// The apertures of the two half cells beside a point, where the opening of the fracture changes from cell to cell.
+// The apertures of the two half cells beside a ridge, where the opening of the fracture changes from cell to cell.
 #pragma once
 
 #include <array>
 
 namespace sprekk::fracture_flow {
 
-/// A cell at a point: half of its length, its aperture a, and its opening w = a − initial aperture, m.
+/// A cell at a ridge: half of its length, its aperture a, and its opening w = a − initial aperture, m.
 struct CellAperture {
   double half_length, aperture, opening;
 };
@@ -16,13 +16,13 @@ struct HalfCellAperture {
   std::array<double, 2> by_aperture;
 };
 
-/// The apertures of the two half cells beside a point. The opening is linear between the centres of the two cells,
-/// w_f = (h_2 w_1 + h_1 w_2)/(h_1 + h_2) at the point; the initial aperture is that of each cell. So half cells in
+/// The apertures of the two half cells beside a ridge. The opening is linear between the centres of the two cells: at
+/// the ridge it is w_f = (h_2 w_1 + h_1 w_2)/(h_1 + h_2). The initial aperture is that of each cell. So half cells in
 /// series are exact where initial apertures jump, of second order where the opening is smooth, and let fluid into a
 /// closed cell: with w_2 = 0 and equal lengths the aperture of its half cell is a_2 + w_1/4. Cubed cell values in
 /// series let no fluid in, since 1/(1/a_1^3 + 1/a_2^3) vanishes with a_2, and a fracture could never open into a cell
-/// that has grown. (Codes for hydraulic fractures take the mean of both apertures at the point: Peirce and Detournay,
-/// Comput. Methods Appl. Mech. Engrg. 197 (2008) 2858.)
+/// that has grown. (Codes for hydraulic fractures take the mean of both apertures there: Peirce and Detournay, Comput.
+/// Methods Appl. Mech. Engrg. 197 (2008) 2858.)
 inline std::array<HalfCellAperture, 2> half_cell_apertures(const CellAperture& first, const CellAperture& second) {
   const auto half = [](const CellAperture& own, const CellAperture& other, bool is_first) {
     const double share = 0.5 * own.half_length / (own.half_length + other.half_length);

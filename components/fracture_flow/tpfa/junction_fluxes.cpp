@@ -19,7 +19,7 @@ JunctionFluxes::JunctionFluxes(const Junction& junction, int fracture_cells, std
   for (int i = 0; i < count; ++i) {
     sum_ += halves_[i].value;
     if (halves_[i].value > halves_[hub_].value) hub_ = i;
-    for (int j = i + 1; j < count; ++j) ends_.emplace_back(i, j);  // the order of the points
+    for (int j = i + 1; j < count; ++j) ends_.emplace_back(i, j);  // the order of the ridges
   }
 }
 

@@ -8,8 +8,8 @@
 
 namespace sprekk::fracture_flow {
 
-/// A factor of a flux (m^2/(Pa s), unless said otherwise) and its derivatives by the apertures of fracture cells, and
-/// where inertia counts by the fluxes through points.
+/// A factor of a flux (m^2/(Pa s), in space m^3/(Pa s), unless said otherwise), and its derivatives by the apertures of
+/// fracture cells and, where inertia counts, by the fluxes through ridges.
 struct Conductance {
   double value;
   std::vector<std::pair<int, double>> by_aperture;
@@ -26,8 +26,8 @@ struct Conductance {
 /// from pressures; the others follow from these fluxes: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
 class JunctionFluxes {
  public:
-  /// The conductance t_i, m^2/(Pa s), and its derivatives by the apertures of the junction's cells, and by further
-  /// variables of these cells one after the other, and by the fluxes through points.
+  /// The conductance t_i, m^2/(Pa s) (in space m^3/(Pa s)), and its derivatives: by the apertures of the junction's
+  /// cells, then by the further variables of these cells one after the other, and by the fluxes through ridges.
   struct Half {
     double value;
     Vector by_aperture;
@@ -38,17 +38,17 @@ class JunctionFluxes {
   JunctionFluxes(const Junction& junction, int fracture_cells, std::vector<Half> halves);
 
   /// A flux between two cells: the conductance times the pressure drop for a flux of the hub, or else the sum of shares
-  /// of the fluxes through other points.
+  /// of the fluxes through other ridges.
   struct Flux {
     Conductance conductance;
-    /// The share of the flux through another point.
+    /// The share of the flux through another ridge.
     struct Part {
       int point;
       Conductance share;  ///< without unit; the sign accounts for the directions of both fluxes
     };
     std::vector<Part> parts;
   };
-  /// The flux through one of the junction's points, by the place of the point in Junction::points.
+  /// The flux through one of the junction's ridges; `place`: of the ridge in Junction::ridges.
   Flux flux(int place) const;
 
  private:
@@ -60,7 +60,7 @@ class JunctionFluxes {
   const Junction& junction_;
   int fracture_cells_;
   std::vector<Half> halves_;
-  std::vector<std::pair<int, int>> ends_;  ///< per point: the places of its cells among the junction's
+  std::vector<std::pair<int, int>> ends_;  ///< per ridge: the places of its cells among the junction's
   double sum_ = 0;
   int hub_ = 0;
 };

@@ -18,7 +18,7 @@ struct Piece {
 };
 
 /// The cells of the fractures, and the lines in them from their centres to the middles of FractureCell::ridges[place]:
-/// in a plane half cells. Cells with fewer ridges have a line that nobody asks for.
+/// in a plane half cells. Cells with fewer ridges have a line that is not used.
 std::vector<Piece> whole_cells(const Mesh& mesh);
 std::vector<Piece> parts_of_cells(const Mesh& mesh, int place);
 /// The largest number of ridges that a fracture cell has.

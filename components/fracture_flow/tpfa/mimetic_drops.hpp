@@ -30,10 +30,10 @@ class MimeticDrops {
   /// cell.
   std::vector<std::pair<int, double>> at(int cell, int ridge) const;
 
-  /// How much of the two-point drop h_k q_k/T at a ridge k of a cell has to stay, so that the sum is positive definite
-  /// when the same part is taken away at each of the cell's junctions. The largest eigenvalue of what goes, as the sum
-  /// M has it, is at most the sum of h_k (M^-1)_kk over them, and h_k (M^-1)_kk <= 1 + (distance of the ridge · its
-  /// length)/A. 0 in cells with two-point fluxes alone.
+  /// The least part of the two-point drop h_k q_k/T at a ridge k of a cell that has to stay, so that the sum M of all
+  /// drops stays positive definite when the same part is taken away at each of the cell's junctions. Relative to M, the
+  /// largest eigenvalue of the drops at these junctions is at most the sum of h_k (M^-1)_kk over them, and h_k
+  /// (M^-1)_kk <= 1 + (distance of the ridge · its length)/A. 0 in cells with two-point fluxes alone.
   double least_kept(int cell, int ridge) const;
 
   /// The drops from the centre of a cell to its ridges, times T, by the flows out through them: h + G, by places in

@@ -24,7 +24,7 @@ struct FracturePlace {
 /// A rate of fluid that is injected at a place.
 struct Injection {
   FracturePlace where;
-  Data rate;  ///< m^2/s in all, spread evenly over the length; at a point shared by the cells around it
+  Data rate;  ///< m^2/s (in space m^3/s) in total, spread evenly; at a point shared by the cells around it
 };
 
 /// A pressure that is prescribed at a place.

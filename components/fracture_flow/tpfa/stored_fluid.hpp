@@ -24,7 +24,7 @@ struct Bernoulli {
 /// second order (HeedsStages).
 enum class EnteringDensity { of_step, at_end };
 
-/// The volume that a cell stores in a step, for each metre of its length (m), and its derivatives.
+/// The volume that a cell stores in a step over its length, in space over its area (m), and its derivatives.
 struct StoredFluid {
   double volume, by_aperture, by_pressure;
 };
@@ -37,8 +37,8 @@ struct StoredFluid {
 /// pressure count, so a compressibility that changes stores nothing.
 ///
 /// Where aperture and pressure rise together, or fall, the fluid moves the walls, and both change in proportion: then
-/// the mean density along this line, b = 1 − e/2, makes a step exact for walls that yield linearly. Both are one to
-/// second order in e. `before`, `after`: the apertures a_0 and a_1, m; `change`: p_1 − p_0, Pa.
+/// the mean density along this line, b = 1 − e/2, makes a step exact for walls that yield linearly. Both values of b
+/// differ by terms of second order in e only. `before`, `after`: the apertures a_0 and a_1, m; `change`: p_1 − p_0, Pa.
 inline StoredFluid stored_fluid(double before, double after, double change, double compressibility,
                                 EnteringDensity density) {
   const double opening = after - before, e = compressibility * change;

@@ -5,10 +5,9 @@
 
 namespace sprekk::fracture_flow {
 
-/// From the centre x of a cell to the mean y of the centres of all cells at a point or junction, the weight is
-/// (d(x) + d(y))/2 g·(x − y), with the excess d of the density and the mean of these cells in the place of d(y). This
-/// is exact for densities that are linear in space, also where fractures bend, and adds up to nothing around a
-/// junction.
+/// From the centre x of a cell to the mean y of the centres of all cells at a ridge or junction, the weight is (d(x) +
+/// d(y))/2 g·(x − y), with the excess d of the density and the mean of these cells in the place of d(y). This is exact
+/// for densities that are linear in space, also where fractures bend, and adds up to nothing around a junction.
 void FractureFlow::weigh_links() {
   for (Link& link : links_) {
     link.by_density.clear();

@@ -24,7 +24,7 @@ class FacesTogether {
 
   /// All coefficients (RawDisplacement), of which those of nodes are 0, as functions of
   struct Displaced {
-    SparseMatrix of_force;  ///< forces on the functions of faces, N/m: a compliance, 0 along held axes
+    SparseMatrix of_force;  ///< forces on the functions of faces, N/m (N in space): a compliance, 0 along held axes
     SparseMatrix of_given;  ///< displacements that are prescribed along held axes, m
   };
   Displaced displaced(const Held& held) const;

@@ -13,12 +13,11 @@
 namespace sprekk::poromechanics {
 
 /// A quantity as a linear function of
-/// - u, the unknowns: displacements of every node, m; at second order then of every edge, in space, and of every face,
-/// m; at first order, with a
-///   volumetric stress, then that of every cell, Pa;
+/// - u, the unknowns: displacements of every node, m; at second order then those of every edge, in space, and of every
+///   face, m; at first order, with a volumetric stress, then that of every cell, Pa;
 /// - s, the isotropic stress of every cell, Pa (sigma = C : grad u − s I);
 /// - T, the traction on the plus wall of every fracture cell, Pa, (normal, tangential); opposite on the minus wall;
-/// - F, the forces on all coefficients of the displacement (RawDisplacement), N/m;
+/// - F, the forces on all coefficients of the displacement (RawDisplacement), N/m (N in space);
 /// - g, the displacements that are prescribed along axes of nodes and faces (HeldDirections), m, in the same numbering.
 struct LinearInFem {
   SparseMatrix of_displacement, of_stress, of_traction, of_force, of_given;
@@ -26,11 +25,11 @@ struct LinearInFem {
 
 /// What the equations of the rock need.
 struct FemOperators {
-  /// A row for each unknown: stiffness · u − forces, N/m; rows that are held are k (u − g). With a volumetric stress q
-  /// of cells q + taken · (mean of div u), Pa.
+  /// A row for each unknown: stiffness · u − forces, N/m (N in space); rows that are held are k (u − g). With a
+  /// volumetric stress q of cells q + taken · (mean of div u), Pa.
   LinearInFem momentum;
   LinearInFem all;         ///< all coefficients of the displacement, m
-  SparseMatrix volume;     ///< div u integrated over every cell, of all coefficients, m^2
+  SparseMatrix volume;     ///< div u integrated over every cell, of all coefficients, m^2 (m^3 in space)
   SparseMatrix jump;       ///< mean of u(minus) − u(plus) over every fracture cell, (normal, tangential), of all, m
   Vector wall_compliance;  ///< how a traction on walls moves the functions of their faces alone, m/Pa, as `jump`
   std::vector<CellPoint::Gradients> of_interior;  ///< see CellStiffness

@@ -18,9 +18,9 @@ struct FemOptions : Options {
 
 /// Unknown: the displacement of every node and, at second order, how much more the middle of every face, and in space
 /// of every edge, is displaced than by the functions of lower order (CellPoint); p is one value a cell. Each row
-/// balances the work of the stresses in the displacement of one function with that of the loads (N/m), or holds a
-/// prescribed displacement. At first order, where rock is nearly incompressible, part of the stress against a change of
-/// volume is an unknown of every cell.
+/// balances the work of the stresses in the displacement of one function with that of the loads (N/m, in space N), or
+/// holds a prescribed displacement. At first order, where rock is nearly incompressible, part of the stress against a
+/// change of volume is an unknown of every cell.
 class FemRock : public LoadedRock, public NeedsDirectSolver {
  public:
   /// Throws InputError as LoadedRock does.

@@ -11,7 +11,8 @@ namespace sprekk::poromechanics {
 
 /// The loads that the scene gives, in the numbering of RawDisplacement.
 struct GivenLoads {
-  /// The work of tractions on sides, of the weight and of the body force, less that of the initial stress, N/m.
+  /// The work of tractions on sides, of the weight and of the body force, less that of the initial stress, N/m (N in
+  /// space).
   Vector forces;
   /// Along held axes (HeldDirections), m; 0 elsewhere. Of an edge and a face it is the coefficient of its function.
   Vector displacements;
@@ -26,8 +27,8 @@ GivenLoads given_loads(const Options& options, const RawDisplacement& raw, const
                        const StepTime& step);
 
 /// The forces of the total stress of every cell on the functions of its corners and faces (RawDisplacement::of_cell),
-/// cell after cell, N/m. `coefficients`: all of them, m; `pore_stress`: what pore pressures add to xx and yy of each
-/// cell, Pa. With the forces of springs. For the second order.
+/// cell after cell, N/m (N in space). `coefficients`: all of them, m; `pore_stress`: what pore pressures add to the
+/// normal components of each cell, Pa. With the forces of springs. For the second order.
 Vector settled_forces(const Options& options, const RawDisplacement& raw, const std::vector<Stiffness>& stiffness,
                       const FemOperators& operators, const Springs& springs, const Vector& coefficients,
                       const Vector& pore_stress);

@@ -13,10 +13,11 @@ struct MpsaLimits {
   /// How well the conditions on the two faces of a single subcell determine a component of its gradient, as the sine of
   /// an angle: below `vague` they are not used for it, above `certain` nothing else is.
   double vague = 0.1, certain = 0.5;
-  /// Smallest pivot, of a row, below which a stiff subcell among very soft ones turns freely (media that differ by
-  /// 1e6); and how strongly it is then coupled to their rotation, of what equal subcells are: soft ones hardly resist.
+  /// Where the smallest pivot, relative to its row, is below `turns_freely`, a stiff subcell turns freely among very
+  /// soft ones (media that differ by 1e6), which hardly resist. It is then coupled to their rotation with
+  /// `held_by_soft` times the strength between equal subcells.
   double turns_freely = 1e-6, held_by_soft = 0.1;
-  /// Of the smaller A/M (see VolumeExchange): where subcells are equal, more could let volume overshoot.
+  /// The factor of the smaller A/M in VolumeExchange: with more, volume could overshoot where subcells are equal.
   double exchange = 0.25;
   /// Least ratio of the smallest singular value of the fit of a tip's field to the largest; below, the modes are too
   /// similar to linear displacements.

@@ -35,8 +35,8 @@ Adjacency local_cells(const Mesh& mesh, const EndZones& zones);
 /// (Keilegavlen and Nordbotten 2017 use the mean of the transposed gradient around the node, which is not exact for
 /// such layers.)
 ///
-/// The volume change of subcells is div u of these displacements, and what neighbours exchange (see VolumeExchange),
-/// which forces and displacements do not see.
+/// The volume change of a subcell is that of these displacements, plus what it exchanges with its neighbours (see
+/// VolumeExchange). The exchange does not enter forces and displacements.
 ///
 /// Near the tip of a crack the displacement is not linear but like sqrt(r): see TipCorrection.
 ///
@@ -91,7 +91,7 @@ class LocalStresses {
   void add_jump(const InteractionRegion& region, int subface, const GradientJump& jump, double factor,
                 double* row) const;
 
-  /// The force on a half face by the stress of a subcell that a unit jump of rotations across a subface makes.
+  /// The force on a half face from the stress that a unit jump of rotations across a subface causes in a subcell.
   Point couple_on(const InteractionRegion& region, int subface, int subcell, const Point& half_face) const;
 
   int column(int subcell) const { return column_[subcell]; }

@@ -32,8 +32,8 @@ class TipCorrection {
   void add_moment(std::vector<Triplet>& moments, int subface, double weight) const;
 
  private:
-  double sign_of(
-      int face) const;  ///< sign of the force by the left side of a line from the node, as a force on the face
+  /// The sign of the force by the left side of a line from the node, as a force on the face.
+  double sign_of(int face) const;
   void add_missing(double* coefficients, const TipField::Amounts& exact) const;
 
   const TipField& field_;

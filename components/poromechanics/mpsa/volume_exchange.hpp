@@ -21,14 +21,14 @@ namespace sprekk::poromechanics {
 /// with the mean M of the two), x the vector between their centres, and c = 1/4 of the smaller A/M, times M of the
 /// softer over the mean. The part of y that belongs to a slope of q is left out, so that a linear q stays.
 /// - Nothing is exchanged where two layers meet that each have a linear displacement, at any contrast.
-/// - No volume is gained in all, and none overshoots: with T the differences of neighbours, T' E T <= A/M. More than a
-///   quarter could exceed that, where subcells are equal.
+/// - No volume is gained in total, and none overshoots: with T the differences of neighbours, T' E T <= A/M. More than
+///   a quarter could exceed that, where subcells are equal.
 /// - What s exchanges, T' E T s, is symmetric and positive semidefinite.
 /// - An error of y in stiff rock moves no more volume than belongs to that rock, even where the error is large as a
 ///   stress.
 class VolumeExchange {
  public:
-  std::vector<int> subfaces;  ///< the inner ones; none where there are less than three, which tell no more than a slope
+  std::vector<int> subfaces;  ///< the inner ones; none where there are fewer than three: these determine only a slope
   Eigen::MatrixXd volume;     ///< E, m^2/Pa
 
   /// `most`: the quarter in c.

@@ -45,7 +45,7 @@ inline double p_wave_modulus(const Stiffness& c) { return (c(0, 0) + c(1, 1) + 2
 struct GradientJump {
   GradientRow of_gradient[2];  ///< of the first and the second subcell
   double of_stress;            ///< of s_1, and of −s_2
-  Eigen::RowVector2d of_load;  ///< of b, 1/N
+  Eigen::RowVector2d of_load;  ///< of b, m/N
 };
 
 /// What two rocks in contact differ by. Where displacements and tractions agree along a straight face the gradients

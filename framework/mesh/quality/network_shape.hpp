@@ -21,7 +21,7 @@ std::vector<FractureAngle> angles_of_junctions(const Mesh& mesh);
 /// A part of the matrix that fractures cut off from all sides of the domain.
 struct Pocket {
   int cells;
-  double measure;              ///< m^2
+  double measure;              ///< m^2 (m^3 in space)
   Point center;                ///< m
   std::vector<int> fractures;  ///< the fractures around the part: indices into Mesh::fractures, in ascending order
 };

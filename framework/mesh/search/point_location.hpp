@@ -35,8 +35,8 @@ class PointLocation {
 /// The index of a fracture, or none.
 int find_fracture(const Mesh& mesh, const std::string& name);
 
-/// The fracture cell that is nearest to a point, of those that count (all without `counts`); of cells that are equally
-/// near, except for a millionth of their length, the first. none where no cell counts.
+/// The fracture cell that is nearest to a point, of those that count (all without `counts`). Of cells whose distances
+/// differ by less than a millionth of their length, the first. none where no cell counts.
 int nearest_fracture_cell(const Mesh& mesh, const Point& x, const std::function<bool(int cell)>& counts = {});
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// The triangles that a face is taken for in space.
+// The triangles by which a face in space is represented.
 #pragma once
 
 #include <vector>

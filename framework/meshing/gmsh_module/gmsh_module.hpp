@@ -36,9 +36,9 @@ struct CutBox {
   std::array<double, 3> low, high;
   std::vector<FlatSurface> surfaces;
   std::function<double(double, double, double)> size_at;  ///< the wanted length of edges, in the unit of the points
-  /// Where corners of surfaces, and points at which surfaces cross, are near to others or to edges, edges are as short
-  /// as this number of them asks for between the two, but no shorter than `least_size`; from there they grow by
-  /// `growth` times the distance. With 0 they are not.
+  /// Where a corner of a surface, or a point at which surfaces cross, is near to another one or to an edge, edges there
+  /// are as long as the distance between the two over this number, but no shorter than `least_size`; away from there
+  /// they grow by `growth` times the distance. With 0, no edges are shortened.
   double gap_edges = 0;
   double least_size = 0, growth = 0.5;
 };

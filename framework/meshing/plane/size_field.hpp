@@ -12,11 +12,9 @@ namespace sprekk {
 /// - for each fracture its size plus growth times the distance from it;
 /// - for each fracture end inside the box the tip size plus growth times the distance from the end;
 /// - for each short piece of a fracture its length plus growth (at most a half) times the distance. A piece lies
-/// between
-///   points where the fracture bends or meets other lines; it is short below a tenth of the lengths above;
+///   between points where the fracture bends or meets other lines; it is short below a tenth of the lengths above;
 /// - for each narrow gap its width over gap_edges, plus growth (at most a half) times the distance. A gap is narrow
-/// below
-///   the lengths above, and no longer than gap_length allows.
+///   below the lengths above, and no longer than gap_length allows.
 class SizeField {
  public:
   /// The geometry is that of a box and valid, except that sizes may still be absurdly small.
@@ -25,8 +23,8 @@ class SizeField {
   double at(const Point& x) const;
   double smallest() const;  ///< the smallest edge length anywhere, m
 
-  /// An upper estimate of the number of triangles that the size field asks for: the integral of 4 / (sqrt(3) h^2),
-  /// separately for the box, the fractures and their ends.
+  /// An upper estimate of the number of triangles that the size field asks for: the integral of 4 / (sqrt(3) h^2), with
+  /// the far size over the whole box, and what each source of shorter edges adds to it, as if it were alone.
   double estimated_triangles() const;
 
  private:

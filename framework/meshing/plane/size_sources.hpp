@@ -1,4 +1,4 @@
-// What asks for edges that are shorter than elsewhere: many lines, each with a length that grows with the distance.
+// Sources of short edges: lines, around each of which the wanted edge length grows with the distance.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ struct SizeSource {
   double growth;
 };
 
-/// Any number of sources, of which the smallest size at a place is found in a time that hardly depends on their number.
-/// Trees of 1, 2, 4, … blocks of sources, so that adding one more does not build everything anew (Bentley and Saxe,
-/// Journal of Algorithms 1 (1980) 301).
+/// Any number of sources. Finding the smallest size at a place takes a time that hardly depends on their number. Trees
+/// of 1, 2, 4, … blocks of sources, so that adding one more does not build everything anew (Bentley and Saxe, Journal
+/// of Algorithms 1 (1980) 301).
 class SizeSources {
  public:
   void add(const SizeSource& source);

@@ -15,8 +15,9 @@ struct RandomFractures;
 /// edge length, two edges of which are horizontal.
 std::vector<Point> points_around_middle(const RandomFractures& set, double length, RandomNumbers& directions);
 
-/// Tells of the points of one fracture after the other whether it keeps away from the sides of the box, the fractures
-/// and regions of the geometry as it is now, and those that it has said yes to.
+/// A function that decides on one fracture after the other, by its points (m): whether it keeps the distances and
+/// angles of the set from the sides of the box, from the fractures and regions that the geometry has now, and from
+/// those that were accepted before.
 std::function<bool(const std::vector<Point>&)> placer(const Geometry& geometry, const RandomFractures& set);
 
 }  // namespace sprekk

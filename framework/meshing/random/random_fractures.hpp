@@ -49,10 +49,10 @@ struct RandomFractures {
 /// - no end of it or of another fracture or edge of a region is nearer than `least_gap` to the other line,
 /// - it crosses others at `least_angle` or more, and no two crossings are nearer to each other than `least_gap`,
 /// so that places are uniform in the region except for these conditions. The longest are placed first. Coordinates are
-/// multiples of a power of ten, below a 1e-6th of the box, so that a table holds them with few digits. In space rims
-/// are what ends are in a plane, coordinates have all digits, and lines along which fractures cross may be near to one
-/// another. Throws
-/// InputError when there is no place for all of them, or when the set has none or more than most_random_fractures.
+/// multiples of a power of ten, below a 1e-6th of the box, so that a table holds them with few digits. In space the
+/// rims of fractures take the place of ends, coordinates have all digits, and lines along which fractures cross may be
+/// near to one another. Throws InputError when there is no place for all fractures, or when the set has none or more
+/// than most_random_fractures.
 void draw_fractures(const RandomFractures& set, Geometry& geometry);
 
 /// A mesh of more would have millions of cells.

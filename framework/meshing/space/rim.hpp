@@ -21,8 +21,8 @@ class Rim {
   double distance_to_disc(const Point& x) const;  ///< to the nearest point inside of the rim
   /// The places of the rim that are farthest on both sides of a plane with this normal.
   std::array<Point, 2> farthest_from(const Point& normal) const;
-  /// Calls use(place, value) at each local minimum, along the rim, of a function that changes by no more than its
-  /// argument, if it may be less than `reach`.
+  /// Calls use(place, value) at each local minimum along the rim that may be less than `reach` (m). The function (m)
+  /// must change by no more than the distance between two places.
   void for_each_minimum(double reach, const std::function<double(const Point&)>& function,
                         const std::function<void(const Point& at, double value)>& use) const;
 

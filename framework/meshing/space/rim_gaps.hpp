@@ -14,7 +14,7 @@ struct FlatFracture {
   std::optional<Rim> rim = {};
 };
 
-/// A place where fractures are apart by little.
+/// A place (m) where two fractures are near to each other.
 struct RimGap {
   Point at;
   double width;  ///< m

@@ -15,8 +15,8 @@ struct StrikeAndDip {
   Point up_dip() const;        ///< unit
 };
 
-/// The corners of a rectangle with this middle, m; its normal, to which its corners turn, points up and to the right of
-/// the strike.
+/// The corners of a rectangle with this middle, m. They turn counter-clockwise about its normal, which points up and to
+/// the right of the strike.
 std::vector<Point> rectangle(const Point& center, const StrikeAndDip& plane, double length, double height);
 
 /// An ellipse with half axes along strike and along dip, m; the normal as for a rectangle.

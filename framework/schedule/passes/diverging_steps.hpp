@@ -11,7 +11,8 @@ namespace sprekk {
 class DivergingSteps {
  public:
   /// To be called when the passes of `step` diverge; `factor`: by which changes grow from pass to pass. Returns whether
-  /// the step is much shorter than one from the same start that diverged no faster.
+  /// shortening has not helped: whether the step is much shorter than another one from the same start that diverged
+  /// hardly faster.
   bool is_no_better(const StepTime& step, double factor);
   /// The largest factor of any step from the start of the last one. To be called after is_no_better.
   double largest() const;
@@ -22,7 +23,7 @@ class DivergingSteps {
     double factor;
     double largest;
   };
-  std::optional<Divergence> longest_;  ///< the longest step from its start that has diverged no faster
+  std::optional<Divergence> longest_;  ///< the longest step from its start that diverged hardly faster
 };
 
 }  // namespace sprekk

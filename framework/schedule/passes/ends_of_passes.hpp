@@ -1,4 +1,4 @@
-// How residuals, errors of balances and changes tell that more passes bring no more.
+// How residuals, errors of balances and changes show that further passes gain nothing.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace sprekk {
 
-/// Whether the least of the values of the last `last_passes` passes is hardly less than that of all before. Residuals
-/// that fall by a hundredth in a pass and scatter by as much again fall by a fifth in 25 passes.
+/// Whether the least value of the last `last_passes` passes is above 0.9 of the least value before. Residuals that fall
+/// by a hundredth in a pass and scatter by as much again fall by a fifth in 25 passes.
 bool hardly_fall(const std::vector<double>& values, std::size_t last_passes);
 /// Whether errors of balances no longer fall, but scatter. Where passes converge slowly, errors fall in each pass.
 bool are_round_off_of_balances(const std::vector<double>& imbalances);

@@ -12,8 +12,7 @@ class PassChanges {
   /// `size`: norm of the change by a pass, all fields together, in scales that stay in the step; `relative`: the
   /// largest change of any field over the largest value of a field of its unit, before or after the pass.
   void add(double size, double relative);
-  /// To be called when acceleration is switched on or off: whether changes still fall is then judged by later passes
-  /// alone.
+  /// To be called when acceleration is switched on or off: later passes alone then show whether changes still fall.
   void begin_again() { begin_ = sizes_.size(); }
 
   /// Whether changes have grown in each of ten passes, and clearly over all ten.
