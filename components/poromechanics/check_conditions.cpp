@@ -8,6 +8,7 @@
 
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/discretization/principal_axes.hpp"
+#include "framework/field/field.hpp"
 #include "framework/linear/rigid_rotations.hpp"
 
 namespace sprekk::poromechanics {

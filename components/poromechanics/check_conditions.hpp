@@ -3,6 +3,7 @@
 
 #include "components/poromechanics/options.hpp"
 #include "framework/config/input_error.hpp"
+#include "framework/field/field.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::poromechanics {

@@ -54,6 +54,13 @@ void Advection::note_input(Notes& notes) const {
   for (const auto& [place, injected] : options_.injected) given.push_back(&injected.value);
   if (carried_.has_absolute_zero)
     for (const Vector& at_start : at_start_) note_cold(notes, name(), at_start, given);
+  if (const Dispersivity& of = options_.dispersivity; of.across > of.along)
+    notes.add(
+        name() + ": dispersion across the flow",
+        fmt::format("'{}' spreads {} more across the flow ({:.4g} m) than along it ({:.4g} m) (in rocks the transverse "
+                    "dispersivity is a tenth of the longitudinal one or less: Gelhar, Welty and Rehfeldt 1992) "
+                    "exchange the two, unless that is meant",
+                    name(), carried_.quantity, of.across, of.along));
   if (!other_aperture_.empty()) notes.add(name() + ": another aperture for " + carried_.quantity, other_aperture_);
 }
 

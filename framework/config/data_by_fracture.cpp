@@ -95,6 +95,14 @@ void require_known_names(const Node& map, const NamedPlaces& places, const std::
   }
 }
 
+/// Whether a component that lives in places of these names, everywhere if there are none, lives in this one.
+bool lives_in(const std::vector<std::string>& own, const std::string& name) {
+  return own.empty() || std::ranges::any_of(own, [&](const std::string& one) {
+           const auto beginning = beginning_of(one);
+           return beginning ? name.starts_with(*beginning) : one == name;
+         });
+}
+
 }  // namespace
 
 std::vector<const Node*> values_by_name(const Node& node, const DataRequest& request, const NamedPlaces& places,
@@ -106,16 +114,23 @@ std::vector<const Node*> values_by_name(const Node& node, const DataRequest& req
   if (names.empty())
     throw InputError(map.origin, "the scene has no " + places.key, "", "give one value without '" + places.key + "'");
   const ValuesOf given(map, request);
+  const std::vector<std::string>& own =
+      std::string(places.key) == "fractures" ? request.context.own_fractures : request.context.own_regions;
   std::vector<const Node*> values;
   for (const std::string& name : names) {
     const Node* const value = given.find(name);
-    if (value == nullptr)
+    if (value == nullptr && lives_in(own, name))
       throw InputError(
           map.origin,
           fmt::format("{} has no value {} the {} {}", quoted(request.name), places.in, places.one, quoted(name)), "",
           "add '" + name + ":' or 'default:'");
     values.push_back(value);
   }
+  const auto some = std::ranges::find_if(values, [](const Node* value) { return value != nullptr; });
+  if (some == values.end())
+    throw InputError(map.origin, quoted(request.name) + " has no value", "",
+                     "give one " + std::string(places.in) + " each " + places.one);
+  std::ranges::replace(values, static_cast<const Node*>(nullptr), *some);  // where it is not asked for
   return values;
 }
 

@@ -34,9 +34,12 @@ struct ColumnValue {
 
 /// The meaning of names in a scene, gathered before the components are read.
 struct ReadContext {
-  const Node* materials = nullptr;                        ///< the `materials:` map or nullptr
-  std::vector<std::string> region_names;                  ///< for values per region, by index
-  std::vector<std::string> fracture_names;                ///< for values per fracture, by index
+  const Node* materials = nullptr;          ///< the `materials:` map or nullptr
+  std::vector<std::string> region_names;    ///< for values per region, by index
+  std::vector<std::string> fracture_names;  ///< for values per fracture, by index
+  /// Where the component that is read lives, by names or their beginnings, `joints_*`; empty for everywhere. Data by
+  /// name need no value elsewhere.
+  std::vector<std::string> own_regions, own_fractures;
   std::vector<std::vector<ColumnValue>> fracture_values;  ///< from tables of fractures, by index
   std::string folder = ".";                               ///< of the scene file: tables are found relative to it
   /// Records path, value (YAML on one line) and origin ("scene.yaml:3:4" or "default") of every parameter read or

@@ -150,6 +150,16 @@ void check_name(const Node::Entry& entry) {
                      "names are made of letters, digits, '_' and '-'", "choose another name");
 }
 
+/// One text or a list of them; none of anything else.
+std::vector<std::string> texts_of(const Node* node) {
+  std::vector<std::string> texts;
+  if (node && node->is_scalar()) texts.push_back(node->scalar);
+  if (node && node->is_list())
+    for (const Node& item : node->items)
+      if (item.is_scalar()) texts.push_back(item.scalar);
+  return texts;
+}
+
 void read_components(Scene& scene, const ReadContext& read) {
   const Node& components = *scene.whole.find("components");
   if (!components.is_map() || components.entries.empty())
@@ -160,7 +170,10 @@ void read_components(Scene& scene, const ReadContext& read) {
     const Node& type_node = *entry.value.find("type");
     const ComponentType& registered = Registry::instance().component(type, type_node.origin);
     read.record(type_node.path, yaml_scalar(type), type_node.origin.text());
-    scene.components.push_back({entry.key, type, entry.origin, registered.read(entry.value, read)});
+    ReadContext own = read;
+    own.own_regions = texts_of(entry.value.find("regions"));
+    own.own_fractures = texts_of(entry.value.find("fractures"));
+    scene.components.push_back({entry.key, type, entry.origin, registered.read(entry.value, own)});
   }
 }
 

@@ -61,7 +61,9 @@ Spec UntilOptions::spec() {
   spec.quantity("relative", relative,
                 {.range = strictly_between(0, 1),
                  .doc = std::string(residual_doc) + " Without effect, unless it is given, where 'all' or 'any' are."});
-  spec.integer("at_most", at_most, {.range = between(1, 100000), .doc = "Passes before the step is refused, or what 'fallback' says is done."});
+  spec.integer(
+      "at_most", at_most,
+      {.range = between(1, 100000), .doc = "Passes before the step is refused, or what 'fallback' says is done."});
   spec.integer("at_least", at_least, {.range = between(1, 100000), .doc = "Passes that are made in any case."});
   static CriterionOptions example;
   const auto list = [&](const char* name, std::list<CriterionOptions>& conditions, const char* doc) {

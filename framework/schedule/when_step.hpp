@@ -28,6 +28,9 @@ class WhenStep : public ScheduleStep {
   std::vector<const Field*> solved_first(const StepTime& step) const override {
     return holds(step) ? inside_->solved_first(step) : std::vector<const Field*>();
   }
+  void note_step(Notes& notes, const StepTime& step) const override {
+    if (holds(step)) inside_->note_step(notes, step);
+  }
   void require_held(const StepTime& step) const override {
     if (holds(step)) inside_->require_held(step);
   }

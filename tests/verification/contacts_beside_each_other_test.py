@@ -165,6 +165,16 @@ class ContactsBesideEachOther(SceneRuns):
                 self.assertLess(np.abs(run[column] - whole).max(), 1e-10 * np.abs(whole).max() + 1e-18)
                 self.assertLess(np.abs(run[f"mean.{k}"] * sum(lengths.values()) - whole).max(), 1e-10 * np.abs(whole).max() + 1e-18)
 
+    def test_values_by_fracture_are_given_where_the_contact_is(self):
+        def text(of_joints):
+            return scene(POINTS, [("faults", "type: contact/coulomb, friction: {fractures: {fault: 0.3}}", ["fault"]),
+                                  ("joints", f"type: contact/coulomb, friction: {{fractures: {{{of_joints}}}}}", ["branch", "joint"])])
+
+        self.assert_same(self.run_text(text("branch: 0.3, joint: 0.3")), self.run_text(two(POINTS)), 1e-14)
+        said = self.call("check", self.write(text("branch: 0.3")))
+        self.assertEqual(said.returncode, 2)
+        self.assertIn("has no value on the fracture 'joint'", said.stderr)
+
     def test_a_beginning_stands_for_names(self):
         renamed = two(POINTS).replace("branch", "set_1").replace("joint:", "set_2:").replace("fracture: joint,", "fracture: set_2,")
         self.assertIn("[set_1,joint]", renamed)

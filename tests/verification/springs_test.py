@@ -208,6 +208,7 @@ output: {probes: {u: {of: rock.displacement, at: [4 m, 1 m]}}}
                                      (free, rock + "large_strain=0.01", ("turning", "pinned")),
                                      (free, rock + "pinned.b={at: [1 m, 0.5 m], displacement_y: 0 m}", ("on a fracture",)),
                                      (free, rock + "pinned.b={at: [5 m, 0.5 m], displacement_y: 0 m}", ("outside",)),
+                                     (free, rock + "pinned.b={at: [2.05 m, 0.5 m], displacement_y: 0 m}", ("outside",)),
                                      (free, rock + "pinned.b={at: [0.001 m, 0 m], displacement_y: 1 mm}", ("'a' and 'b'", "given twice")),
                                      (free, rock + "pinned.b={at: [2 m, 0.5 m]}", ("holds nothing",)),
                                      (free, rock + "pinned.b={displacement_y: 0 m}", ("at",)),

@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 
-from scene_runs import on_two_processes
+from scene_runs import ROOT, on_two_processes
 from scenes_in_space import SpaceRuns
 
 E, NU, ALPHA, PHI, C_F, BETA, ALPHA_T, WARMED = 15e9, 0.22, 0.7, 0.12, 4.5e-10, 3e-4, 8e-6, 7.0
@@ -197,6 +197,32 @@ class ThermalPressurization(SpaceRuns):
         self.assertLess(np.abs(apart - whole).max(), 1e-8 * np.abs(whole).max())
         disturbed = self.run_text(gaussian(16, 10, disturbed=1 + 1e-9)[0]).fields()["pore.pressure"]
         self.assertLess(np.abs(disturbed - whole).max(), 1e-7 * np.abs(whole).max())
+
+    def test_a_fracture_that_warms_tight_rock(self):
+        """The tutorial's scene: half-spaces beside a fracture that is warm and drained, uniaxial strain (McTigue 1986), A (erfc_kappa - erfc_c). Steps of
+        half a day leave some per cent, which fall with time and with the step."""
+        k, g, alpha, phi = 6e9 / (3 * (1 - 2 * 0.27)), 6e9 / (2 * 1.27), 0.8, 0.16
+        uniaxial, kappa = k + 4 * g / 3, 2 / 2.3e6
+        storage = phi * 4.5e-10 + (alpha - phi) / k + alpha ** 2 / uniaxial
+        c = 5e-20 / 0.6e-3 / storage
+        amplitude = 40 * (phi * 4e-4 + (alpha - phi) * 3e-5 - alpha * 3 * k * 1e-5 / uniaxial) * kappa / (storage * (kappa - c))
+
+        def front(diffusivity, away, times):
+            return np.array([math.erfc(away / (2 * math.sqrt(diffusivity * t))) for t in times])
+
+        errors = {}
+        for step in ("0.5 day", "1 day"):
+            run = self.run_scene(ROOT / "configs/tutorial/heated_fracture.yaml", f"time.step={step}", "output.fields=false")
+            late = run.times > 10 * 86400
+            times = run.times[late]
+            for probe, away in (("p_near", 0.5), ("p_far", 1.5)):
+                exact = amplitude * (front(kappa, away, times) - front(c, away, times))
+                errors[probe, step] = np.abs((run[probe][late] - 2e6) / exact - 1).max()
+            warm = np.abs((run["T_near"][late] - 300) / (40 * front(kappa, 0.5, times)) - 1).max()
+            self.assertLess(warm, 0.015 if step == "0.5 day" else 0.03)
+        self.assertLess(errors["p_near", "0.5 day"], 0.02)
+        self.assertLess(errors["p_far", "0.5 day"], 0.05)
+        self.assertLess(errors["p_far", "0.5 day"], 0.65 * errors["p_far", "1 day"])
 
     def test_fluid_that_fills_closed_fractures(self):
         """Reference: p = p_0 + beta_f (T - T_0)/c_f with the mean temperature of each fracture, since pressure evens out along it and heat does not; c_f dp

@@ -290,6 +290,13 @@ class Tracer(SpaceRuns):
             results = self.run_text(flowing(2, **UNEVEN, schedule=schedule, spread=SPREAD))
             self.assertEqual(any("of the step before" in str(note) for note in results.notes), is_late, results.notes)
 
+    def test_more_dispersion_across_than_along_is_told(self):
+        for across in (0.02, 0.2):
+            file = self.write(flowing(2, **UNEVEN, spread=f", longitudinal_dispersivity: 0.1 m, transverse_dispersivity: {across} m"), f"spread_{across}.yaml")
+            said = self.call("check", file)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            self.assertEqual("more across the flow (0.2 m) than along it (0.1 m)" in said.stderr, across > 0.1, said.stderr)
+
     def test_dispersion(self):
         """Reference: the same scene with that much more diffusion, phi D + alpha_T |q| I + (alpha_L - alpha_T) q q^T/|q|: in a column, in a flow that is oblique to
         all axes, in a plane and in space, along a fracture."""
