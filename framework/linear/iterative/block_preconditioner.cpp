@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
+#include "framework/linear/iterative/cycle_with_zone.hpp"
 #include "framework/linear/iterative/without_small_entries.hpp"
 #include "framework/linear/refined_solve.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -34,21 +35,29 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
 
   std::vector<SparseMatrix> bulk;
   for (int part = 0; part < local; ++part) {
-    const UnknownBlock& block = partition.parts[part].block;
+    UnknownBlock block = partition.parts[part].block;
     SparseMatrix& a = bulk.emplace_back(sub_matrix(system.local, partition, part, part));
     a += elimination_->correction(system, partition, part);
+    const std::vector<int>& owned = partition.parts[part].owned;
+    const bool has_fractures = partition.parts[part].has_fractures;
+    // Multi-point fluxes reach far, by entries that cost a multigrid more than they help it. With a stabilization the
+    // block stands for a Schur complement, unless it has the potentials on fractures as well.
+    if (block.kind == BlockKind::bulk_elliptic && (block.stabilization.size() == 0 || has_fractures))
+      a = without_small_entries(a, owned);
     if (block.stabilization.size() > 0) {
       SparseMatrix diagonal(a.rows(), a.cols());
       diagonal.reserve(Eigen::VectorXi::Ones(a.rows()));
-      const std::vector<int>& owned = partition.parts[part].owned;
       for (std::size_t k = 0; k < owned.size(); ++k)
         diagonal.insert(static_cast<int>(k), owned[k]) = block.stabilization[owned[k]];
       a += diagonal;
-    } else if (block.kind == BlockKind::bulk_elliptic) {
-      // Multi-point fluxes reach far, by entries that cost a multigrid more than they help it.
-      a = without_small_entries(a, partition.parts[part].owned);
+      // Fractures that conduct well matter more to a multigrid than what the diagonal stands for.
+      if (has_fractures) block.stabilization.resize(0);
     }
-    cycles_.push_back(trilinos().multigrid(a, partition.parts[part].owned, block));
+    std::unique_ptr<Multigrid> cycle = trilinos().multigrid(a, owned, block);
+    std::vector<int> zone;
+    if (block.kind == BlockKind::bulk_elastic) zone = elimination_->beside(partition, part);
+    cycles_.push_back(zone.empty() ? std::move(cycle)
+                                   : std::make_unique<CycleWithZone>(a, owned, std::move(zone), std::move(cycle)));
   }
   const LinearReport report = elimination_->factor(system, partition, bulk);
   if (!report.solved) throw std::invalid_argument(report.reason);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -116,22 +117,62 @@ using Blocks = std::vector<const UnknownBlock*>;
 
 std::string owner_of(const UnknownBlock& block) { return block.name.substr(0, block.name.find('.')); }
 
-// The blocks of each part of the bulk.
+bool is_kind(const UnknownBlock& block, BlockKind kind) { return block.kind == kind && block.entities > 0; }
+
+/// Whether the translations of `moving` leave the unknowns of `other` at zero, as those of middles of edges that are
+/// counted from the mean of their ends: the rows of `other` then have no force from them. Collective.
+bool rests_with(const LinearSystem& system, const UnknownBlock& moving, const UnknownBlock& other) {
+  const int components = other.components;
+  const auto is_of = [](const UnknownBlock& block, Eigen::Index unknown) {
+    return unknown >= block.first && unknown < block.first + block.entities * block.components;
+  };
+  Vector forces = Vector::Zero(2);  // where `other` rests, and where it moves along
+  for (std::size_t row = 0; row < system.rows.size(); ++row) {
+    if (!is_of(other, system.rows[row])) continue;
+    Vector resting = Vector::Zero(components), along = resting;
+    for (SparseMatrix::InnerIterator entry(system.local, static_cast<int>(row)); entry; ++entry) {
+      if (is_of(moving, entry.col())) resting[(entry.col() - moving.first) % components] += entry.value();
+      if (is_of(other, entry.col())) along[(entry.col() - other.first) % components] += entry.value();
+    }
+    forces[0] += resting.lpNorm<1>();
+    forces[1] += (resting + along).lpNorm<1>();
+  }
+  parallel::sum(forces);
+  return forces[0] < forces[1];
+}
+
+/// Whether a block of displacements refines those of an earlier block of its owner at a few places, such as tips: then
+/// it is eliminated as what is on fractures.
+bool refines_few(const LinearSystem& system, const UnknownBlock& block) {
+  if (!is_kind(block, BlockKind::bulk_elastic)) return false;
+  for (const UnknownBlock& first : system.blocks) {
+    if (&first == &block) return false;
+    if (is_kind(first, BlockKind::bulk_elastic) && owner_of(first) == owner_of(block) &&
+        first.components == block.components)
+      return block.entities < first.entities && rests_with(system, first, block);
+  }
+  return false;
+}
+
+// The blocks of each part of the bulk: elliptic ones first. A multigrid has the potentials of one owner with those on
+// fractures.
 std::vector<Blocks> blocks_of_parts(const LinearSystem& system) {
   std::vector<Blocks> parts;
-  for (const auto kind : {BlockKind::bulk_elliptic, BlockKind::bulk_elastic})
-    for (const UnknownBlock& block : system.blocks)
-      if (block.kind == kind && block.entities > 0) parts.push_back({&block});
-  const auto is_of_first_owner = [&](const Blocks& part) {
-    return part[0]->kind == BlockKind::bulk_elliptic && owner_of(*part[0]) == owner_of(*parts[0][0]);
-  };
-  if (parts.empty() || !std::ranges::all_of(parts, is_of_first_owner)) return parts;
-  Blocks potentials;
-  for (const Blocks& part : parts) potentials.push_back(part[0]);
   for (const UnknownBlock& block : system.blocks)
-    if (block.kind == BlockKind::interface && block.components == 1 && block.may_store && block.entities > 0)
-      potentials.push_back(&block);
-  return {potentials};
+    if (is_kind(block, BlockKind::bulk_elliptic)) parts.push_back({&block});
+  const bool is_of_one_owner =
+      std::ranges::all_of(parts, [&](const Blocks& part) { return owner_of(*part[0]) == owner_of(*parts[0][0]); });
+  if (!parts.empty() && is_of_one_owner) {
+    Blocks potentials;
+    for (const Blocks& part : parts) potentials.push_back(part[0]);
+    for (const UnknownBlock& block : system.blocks)
+      if (is_kind(block, BlockKind::interface) && block.components == 1 && block.may_store)
+        potentials.push_back(&block);
+    parts = {potentials};
+  }
+  for (const UnknownBlock& block : system.blocks)
+    if (is_kind(block, BlockKind::bulk_elastic) && !refines_few(system, block)) parts.push_back({&block});
+  return parts;
 }
 
 // What a multigrid may know of a part.
@@ -173,7 +214,10 @@ Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), 
     place_of[unknown] = static_cast<int>(members.size());
     members.push_back(static_cast<int>(unknown));
   }
-  for (std::size_t part = 0; part < blocks.size(); ++part) parts[part].block = joined(blocks[part], place_of);
+  for (std::size_t part = 0; part < blocks.size(); ++part) {
+    parts[part].block = joined(blocks[part], place_of);
+    parts[part].has_fractures = blocks[part].back()->kind == BlockKind::interface;
+  }
   for (std::size_t row = 0; row < system.rows.size(); ++row) {
     SystemPart& part = parts[part_of[system.rows[row]]];
     part.owned.push_back(place_of[system.rows[row]]);
@@ -194,7 +238,12 @@ LocalElimination::LocalElimination(const LinearSystem& system, const Partition& 
   rows_ = gather_local_rows(system, partition);
   local_ = columns_of_part(rows_, all_rows(rows_), partition, static_cast<int>(partition.parts.size()) - 1);
   std::vector<Triplet> inverses;
+  const std::vector<char> is_with_refining = with_refining(system, partition);
   for (const std::vector<int>& cell : unknowns_by_cell(system, partition)) {
+    if (std::ranges::any_of(cell, [&](int place) { return is_with_refining[place] != 0; })) {
+      together_.insert(together_.end(), cell.begin(), cell.end());
+      continue;
+    }
     const int size = static_cast<int>(cell.size());
     Eigen::MatrixXd block(size, size);
     for (int i = 0; i < size; ++i)
@@ -206,6 +255,62 @@ LocalElimination::LocalElimination(const LinearSystem& system, const Partition& 
   }
   cell_inverses_ = SparseMatrix(unknowns, unknowns);
   cell_inverses_.setFromTriplets(inverses.begin(), inverses.end());
+  std::sort(together_.begin(), together_.end());
+}
+
+// Of local unknowns: those that refine displacements of the bulk, and those whose rows have one.
+std::vector<char> LocalElimination::with_refining(const LinearSystem& system, const Partition& partition) const {
+  const int unknowns = static_cast<int>(partition.local().unknowns.size());
+  const int local = static_cast<int>(partition.parts.size()) - 1;
+  std::vector<char> refines(unknowns, 0);
+  for (const UnknownBlock& block : system.blocks) {
+    if (!is_kind(block, BlockKind::bulk_elastic) || partition.part_of[block.first] < local) continue;
+    for (int k = 0; k < block.entities * block.components; ++k) refines[partition.place_of[block.first + k]] = 1;
+  }
+  std::vector<char> with = refines;
+  for (int row = 0; row < unknowns; ++row)
+    for (SparseMatrix::InnerIterator entry(local_, row); entry; ++entry)
+      if (refines[entry.col()] && entry.value() != 0) with[row] = 1;
+  return with;
+}
+
+// Of A_FB, rows of `together_`: the answers of these unknowns, and of no others, to each column.
+std::vector<Triplet> LocalElimination::answers_together(const SparseMatrix& columns) {
+  std::vector<Triplet> answers;
+  if (together_.empty()) return answers;
+  const int size = static_cast<int>(together_.size());
+  if (!has_factors_) {
+    std::vector<int> place(local_.cols(), -1);
+    for (int k = 0; k < size; ++k) place[together_[k]] = k;
+    std::vector<Triplet> entries;
+    for (int k = 0; k < size; ++k)
+      for (SparseMatrix::InnerIterator entry(local_, together_[k]); entry; ++entry)
+        if (place[entry.col()] >= 0) entries.emplace_back(k, place[entry.col()], entry.value());
+    LinearSystem alone;
+    alone.local = SparseMatrix(size, size);
+    alone.local.setFromTriplets(entries.begin(), entries.end());
+    alone.rows.resize(size);
+    std::iota(alone.rows.begin(), alone.rows.end(), 0);
+    const LinearReport report = together_solver_.factor(alone);
+    if (!report.solved)
+      throw std::invalid_argument("the preconditioner cannot eliminate the unknowns at tips (" + report.reason + ")");
+    has_factors_ = true;
+  }
+  std::vector<Triplet> sources;
+  for (int k = 0; k < size; ++k)
+    for (SparseMatrix::InnerIterator entry(columns, together_[k]); entry; ++entry)
+      sources.emplace_back(static_cast<int>(entry.col()), k, entry.value());
+  SparseMatrix by_column(columns.cols(), size);
+  by_column.setFromTriplets(sources.begin(), sources.end());
+  for (int column = 0; column < by_column.rows(); ++column) {
+    if (by_column.outerIndexPtr()[column] == by_column.outerIndexPtr()[column + 1]) continue;
+    Vector answer = Vector::Zero(size);
+    for (SparseMatrix::InnerIterator entry(by_column, column); entry; ++entry) answer[entry.col()] = entry.value();
+    together_solver_.solve_unchecked(answer);
+    for (int k = 0; k < size; ++k)
+      if (answer[k] != 0) answers.emplace_back(together_[k], column, answer[k]);
+  }
+  return answers;
 }
 
 LinearReport LocalElimination::factor(const LinearSystem& system, const Partition& partition,
@@ -242,15 +347,33 @@ LinearReport LocalElimination::factor(const LinearSystem& system, const Partitio
   return report;
 }
 
-SparseMatrix LocalElimination::correction(const LinearSystem& system, const Partition& partition, int bulk) const {
+SparseMatrix LocalElimination::correction(const LinearSystem& system, const Partition& partition, int bulk) {
   const int local = static_cast<int>(partition.parts.size()) - 1;
   const SparseMatrix bulk_from_local = sub_matrix(system.local, partition, bulk, local);
   if (partition.local().unknowns.empty())
     return SparseMatrix(bulk_from_local.rows(), static_cast<int>(partition.parts[bulk].unknowns.size()));
-  const SparseMatrix weighted = cell_inverses_ * columns_of_part(rows_, all_rows(rows_), partition, bulk);
+  const SparseMatrix from_bulk = columns_of_part(rows_, all_rows(rows_), partition, bulk);
+  SparseMatrix weighted = cell_inverses_ * from_bulk;
   SparseMatrix product = bulk_from_local * weighted;
+  const std::vector<Triplet> answers = answers_together(from_bulk);
+  if (!answers.empty()) {
+    SparseMatrix together(from_bulk.rows(), from_bulk.cols());
+    together.setFromTriplets(answers.begin(), answers.end());
+    product += SparseMatrix(bulk_from_local * together);
+  }
   product *= -1.0;
   return product;
+}
+
+std::vector<int> LocalElimination::beside(const Partition& partition, int bulk) const {
+  std::vector<char> is_beside(partition.parts[bulk].unknowns.size(), 0);
+  for (int row = 0; row < rows_.rows(); ++row)
+    for (SparseMatrix::InnerIterator entry(rows_, row); entry; ++entry)
+      if (partition.part_of[entry.col()] == bulk && entry.value() != 0) is_beside[partition.place_of[entry.col()]] = 1;
+  std::vector<int> places;
+  for (int place = 0; place < static_cast<int>(is_beside.size()); ++place)
+    if (is_beside[place]) places.push_back(place);
+  return places;
 }
 
 }  // namespace sprekk

@@ -12,6 +12,7 @@ namespace sprekk {
 /// A block of the system for a multigrid cycle, or (the last part of a partition) all local unknowns together.
 struct SystemPart {
   UnknownBlock block;           ///< what a multigrid may know; without a name for the local part
+  bool has_fractures = false;   ///< whether potentials on fractures are among those of the bulk
   std::vector<int> unknowns;    ///< global numbers of all unknowns of the part, ascending
   std::vector<int> owned;       ///< places in `unknowns` of those whose rows this process holds
   std::vector<int> owned_rows;  ///< their places among this process's rows
@@ -21,7 +22,8 @@ struct SystemPart {
 /// part (maybe empty), which also has the unknowns that belong to no block. A scalar block with its stabilization
 /// approximates the Schur complement of the elastic block, so it is solved first. Where the bulk has the potentials of
 /// one owner alone, they are one part with those on fractures (of which balances are kept): a fracture that conducts
-/// well makes the potential nearly constant over its length, which only a multigrid of both sees.
+/// well makes the potential nearly constant over its length, which only a multigrid of both sees. Displacements
+/// of middles of edges at tips alone are local: as a part of their own, they would take three times as many iterations.
 struct Partition {
   explicit Partition(const LinearSystem& system);
   std::vector<SystemPart> parts;
@@ -47,11 +49,20 @@ class LocalElimination {
   void solve(Vector& local) const {
     if (local.size() > 0) solver_.solve_unchecked(local);
   }
-  /// -A_BF D^-1 A_FB for the rows of part `bulk` that this process holds.
-  SparseMatrix correction(const LinearSystem& system, const Partition& partition, int bulk) const;
+  /// -A_BF D^-1 A_FB for the rows of part `bulk` that this process holds. Throws std::invalid_argument if the block of
+  /// D of tips is singular.
+  SparseMatrix correction(const LinearSystem& system, const Partition& partition, int bulk);
+  /// The places in part `bulk` of its unknowns that have a column in A_FB, ascending; on every process alike.
+  std::vector<int> beside(const Partition& partition, int bulk) const;
 
  private:
+  std::vector<char> with_refining(const LinearSystem& system, const Partition& partition) const;
+  std::vector<Triplet> answers_together(const SparseMatrix& columns);
+
   UmfpackSolver solver_;
+  std::vector<int> together_;  ///< those that refine displacements, and those of cells with them: one block of D
+  UmfpackSolver together_solver_;
+  bool has_factors_ = false;    ///< of that block
   SparseMatrix rows_;           ///< the rows of all local unknowns, all columns of the system; on every process
   SparseMatrix local_;          ///< of these the local columns, A_FF
   SparseMatrix cell_inverses_;  ///< D^-1
