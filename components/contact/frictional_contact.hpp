@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/capabilities/fracture_contact.hpp"
+#include "components/capabilities/given_on_fractures.hpp"
 #include "components/contact/laws/formulas.hpp"
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
@@ -71,6 +72,7 @@ class FrictionalContact : public Component,
                           public KeepsState,
                           public FollowsMesh,
                           public FractureContact,
+                          public AcceptsFriction,
                           public CountsFromHere,
                           public NotesStart,
                           public HeedsStages,
@@ -151,6 +153,7 @@ class FrictionalContact : public Component,
   /// while open overlap by |d| tan psi. With a larger normal stiffness the iteration would take them to stick, return
   /// to where they were, open, and so on; with the limit it takes them to slip.
   void set_wall_stiffness(const Vector& stiffness) override;
+  std::string accept_friction_factor(const Field& factor) override;
   bool needs_shear_modulus() const override { return rate_and_state_ != nullptr; }
   void set_shear_modulus(const Vector& modulus) override;
   std::optional<SlidingWalls> sliding(int cell) const override;
@@ -185,7 +188,9 @@ class FrictionalContact : public Component,
   void evaluate_formulas();
   /// The coefficient of friction by this law. Throws DataError where it is negative or not finite.
   OfWalls friction_by_law(int cell, const FrictionLaw& law, const WallState& state) const;
-  /// The strength of the walls in this state, with derivatives.
+  /// The strength of the walls in this state, with derivatives, by their own laws.
+  Strength strength_by_laws(int cell, const WallState& state) const;
+  /// The same with the factor of friction that another component gives.
   Strength strength(int cell, const WallState& state) const;
   /// The state of the walls with this path (m) at the end of the step, this slip in the step and this pressure (Pa).
   WallState wall_state(int cell, double path, const SlipOfStep& step, double pressure) const;
@@ -238,6 +243,7 @@ class FrictionalContact : public Component,
   std::unique_ptr<RateAndStateWalls> rate_and_state_;  ///< null where friction does not depend on the rate
   std::unique_ptr<Formulas> formulas_;
   Property friction_, dilation_angle_;       ///< mu_s, psi; of formulas, values without slip
+  const Field* friction_factor_ = nullptr;   ///< where another component gives one
   Property dynamic_friction_;                ///< mu_d, where friction weakens
   Vector dilation_;                          ///< tan psi
   std::vector<char> bonded_;                 ///< empty for none

@@ -111,7 +111,7 @@ OfWalls FrictionalContact::friction_by_law(int i, const FrictionLaw& law, const 
                       .what());
 }
 
-Strength FrictionalContact::strength(int i, const WallState& state) const {
+Strength FrictionalContact::strength_by_laws(int i, const WallState& state) const {
   const StateFormula *friction = formulas_->friction(), *cohesion = formulas_->cohesion();
   const FrictionLaw* law = formulas_->friction_law();
   if (!friction && !cohesion && !law) return weakening_.at(friction_[i], dynamic_friction(i), state[path_of_walls]);
@@ -132,6 +132,24 @@ Strength FrictionalContact::strength(int i, const WallState& state) const {
   s.cohesion_by_rate = left * c.by[slip_rate_of_walls];
   s.friction_by_pressure = f.by[pressure_of_walls];
   s.cohesion_by_pressure = left * c.by[pressure_of_walls];
+  return s;
+}
+
+std::string FrictionalContact::accept_friction_factor(const Field& factor) {
+  if (rate_and_state_) return "'" + name() + "' has a friction of rate and state, which has no single coefficient";
+  if (friction_factor_ && friction_factor_ != &factor)
+    return "'" + name() + "' has the factor of " + friction_factor_->name() + " already";
+  friction_factor_ = &factor;
+  return {};
+}
+
+Strength FrictionalContact::strength(int i, const WallState& state) const {
+  Strength s = strength_by_laws(i, state);
+  if (!friction_factor_) return s;
+  const double factor = friction_factor_->now()[i];
+  for (double* friction :
+       {&s.friction, &s.friction_by_path, &s.friction_by_slip, &s.friction_by_rate, &s.friction_by_pressure})
+    *friction *= factor;
   return s;
 }
 

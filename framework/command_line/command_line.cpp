@@ -27,6 +27,7 @@
 #include "framework/output/build_info.hpp"
 #include "framework/output/output_folder.hpp"
 #include "framework/output/progress.hpp"
+#include "framework/outside/commands.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/plugin/plugin.hpp"
 #include "framework/report/report.hpp"
@@ -126,6 +127,7 @@ class Commands {
     declare_of_scenes();
     declare_texts();
     declare_plugins();
+    declare_programs();
   }
 
   /// Does what the arguments, which have been parsed, ask for.
@@ -134,6 +136,8 @@ class Commands {
     take_plugins_of_environment();
     for (const std::string& file : plugins_) load_plugin_of_user(file, {"--plugin"});
     for (const std::string& folder : plugin_folders_) trust_plugins_in(folder, {"--plugins"});
+    for (const std::string& program : programs_) take_program(program, {"--program"});
+    take_programs_of_environment();
     print_texts();
     if (*show_) print_scene(scene_.read());
     if (*fractures_) std::cout << fracture_table(scene_.read().geometry.fractures);
@@ -191,6 +195,17 @@ class Commands {
     }
   }
 
+  void declare_programs() {
+    for (CLI::App* command : {run_, check_, sweep_.command(), converge_.command(), schemes_.command()})
+      command
+          ->add_option(
+              "--program", programs_,
+              "Starts the program of a component outside/program: --program model='python3 model.py'; once for "
+              "each. 'check' starts none")
+          ->allow_extra_args(false)
+          ->type_name("NAME=COMMAND");
+  }
+
   void print_texts() const {
     if (*list_) print_list(std::cout);
     if (*explain_) print_explanations(explained_, std::cout);
@@ -236,7 +251,7 @@ class Commands {
   RunOptions options_;
   CLI::Option* restart_ = nullptr;
   std::string folder_, checkpoint_, reference_folder_, picture_, reported_, schema_of_ = "scene", shell_;
-  std::vector<std::string> explained_, plugins_, plugin_folders_;
+  std::vector<std::string> explained_, plugins_, plugin_folders_, programs_;
 };
 
 }  // namespace

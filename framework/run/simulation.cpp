@@ -24,6 +24,7 @@
 #include "framework/run/scene_fingerprint.hpp"
 #include "framework/run/simulation_state.hpp"
 #include "framework/run/step_attempts.hpp"
+#include "framework/scene/programs.hpp"
 #include "framework/scene/start_state.hpp"
 
 namespace sprekk {
@@ -48,8 +49,12 @@ std::unique_ptr<Model> make_model(const Scene& scene, const std::optional<Restar
                                   Progress& progress) {
   progress.watch();
   progress.phase("building the model");
-  if (restart) return std::make_unique<Model>(scene, restart->mesh(scene.mesh.division), std::move(log));
-  auto model = std::make_unique<Model>(scene, std::move(log));
+  const auto built = [](std::unique_ptr<Model> model) {
+    require_programs(model->parts());
+    return model;
+  };
+  if (restart) return built(std::make_unique<Model>(scene, restart->mesh(scene.mesh.division), std::move(log)));
+  auto model = built(std::make_unique<Model>(scene, std::move(log)));
   take_start(*model);
   model->require_held();
   return model;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "framework/config/state.hpp"
+#include "framework/outside/outside_error.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/limits_step.hpp"
@@ -47,6 +48,8 @@ std::optional<StepAttempts::Outcome> StepAttempts::try_once(bool may_be_interrup
     return std::nullopt;
   } catch (const DataError& error) {
     return give_up(name() + " has no data: " + error.what());
+  } catch (const OutsideError& error) {
+    return give_up(name() + " cannot be taken: " + error.what());
   } catch (const Interrupted&) {
     give_up("interrupted");
     return Outcome::interrupted;

@@ -19,9 +19,11 @@
 #include "framework/meshing/generate_mesh.hpp"
 #include "framework/output/activity.hpp"
 #include "framework/output/vtu_writer.hpp"
+#include "framework/outside/solved_outside.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/scene/lost_amounts.hpp"
 #include "framework/scene/probe_checks.hpp"
+#include "framework/scene/programs.hpp"
 #include "framework/schedule/gaps.hpp"
 #include "framework/schedule/limits_step.hpp"
 #include "framework/schedule/schedule_context.hpp"
@@ -82,6 +84,7 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   const ScheduleContext context{mesh_,     fields_, parts_, std::move(log), named, scene_.time.start, scene_.time.step,
                                 &growing_, &states_};
   schedule_ = scene_.schedule(context);
+  require_programs_can_join(parts_, !growing_.empty(), scene_.start);
   build_settling(context);
   now_doing("the first evaluation of all data");
   check_determined();
@@ -173,6 +176,7 @@ StepAmounts amounts_of(const std::string& quantity, const Mesh& mesh, const std:
 }  // namespace
 
 StepStatus Model::attempt(const StepTime& step) {
+  for (auto* outside : parts_with<SolvedOutside>(parts_)) outside->join_run(parts_);
   const std::map<std::string, Balance> before = balances();
   prepare(step);
   now_doing("assembling and ordering");

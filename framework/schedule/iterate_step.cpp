@@ -12,6 +12,7 @@
 #include "framework/assembly/counts_later.hpp"
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/invariants.hpp"
+#include "framework/outside/solved_outside.hpp"
 #include "framework/schedule/passes/ends_of_passes.hpp"
 #include "framework/schedule/passes/round_off_of_values.hpp"
 
@@ -57,7 +58,10 @@ IterateStep::IterateStep(const IterateOptions& options, std::unique_ptr<Schedule
       accelerator_(options.acceleration.build()),
       pass_(std::move(pass)) {
   inside_->iterate_with(inside_->unknowns());
-  if (options_.fallback == "monolithic" && !options_.has_substeps)
+  // What another program solves for is in no system with other unknowns.
+  const bool is_all_known =
+      std::ranges::none_of(fields_, [&](const Field* field) { return is_solved_outside(*field, context.parts); });
+  if (options_.fallback == "monolithic" && !options_.has_substeps && is_all_known)
     fallback_.emplace(fields_, options_.newton, options_.linear, context);
   std::vector<std::string> names;
   for (const Field* field : fields_) names.push_back(field->name());

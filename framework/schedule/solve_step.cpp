@@ -7,6 +7,7 @@
 #include "framework/assembly/needs_direct_solver.hpp"
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/invariants.hpp"
+#include "framework/outside/solved_outside.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/schedule/residual_check.hpp"
 
@@ -41,6 +42,22 @@ void require_together(const SolveOptions& options, const std::vector<Part*>& par
                              (dependence.ends_with_response
                                   ? ", or give this one 'stabilize: response' in an 'iterate' that solves for both"
                                   : ""));
+}
+
+/// Derivatives of what another program solves for are unknown: it is solved for alone, and as it answers.
+void require_alone(const SolveOptions& options, const std::vector<Part*>& parts) {
+  for (const auto* outside : parts_with<SolvedOutside>(parts)) {
+    const std::string& name = outside->component();
+    if (std::ranges::count(options.components, name) == 0) continue;
+    if (options.components.size() > 1)
+      throw InputError(options.origin, quoted(name) + " is solved together with other components",
+                       "another program solves for it, and the derivatives of its answer are unknown",
+                       "give it a 'solve' of its own, in an 'iterate' with the others");
+    if (options.stabilization != "none")
+      throw InputError(options.stabilization_origin, "the 'solve' of " + quoted(name) + " is stabilized",
+                       "another program solves for it, and its equations are not known here",
+                       "leave 'stabilize' out: the program may stabilize itself");
+  }
 }
 
 /// The pairs of fields of a stabilization that are both solved for.
@@ -143,6 +160,7 @@ SolveStep::SolveStep(const SolveOptions& options, const ScheduleContext& context
       newton_(newton_for(fields_)) {
   require_offered(options, context.parts);
   require_together(options, context.parts);
+  require_alone(options, context.parts);
 }
 
 std::unique_ptr<Newton> SolveStep::newton_for(const std::vector<Field*>& unknowns) const {

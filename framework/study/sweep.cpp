@@ -14,6 +14,7 @@
 
 #include "framework/output/build_info.hpp"
 #include "framework/output/progress.hpp"
+#include "framework/outside/commands.hpp"
 #include "framework/plugin/plugin.hpp"
 #include "framework/study/child_process.hpp"
 #include "framework/study/comparison.hpp"
@@ -138,6 +139,7 @@ void Sweep::start(std::size_t i) {
   arguments.insert(arguments.end(), {"-o", run_folder(i).string()});
   if (goes_on) arguments.emplace_back("--restart");
   std::map<std::string, std::string> environment = plugin_environment();
+  environment.merge(program_environment());
   environment.insert({{"OPENBLAS_NUM_THREADS", "1"}, {"OMP_NUM_THREADS", "1"}});
   if (launchers_.empty()) {
     working_.push_back({i, ChildProcess(options_.program, arguments, log(i), environment), 0});

@@ -257,7 +257,7 @@ class BorderExchange(SceneRuns):
                                 (["components.beside.type=matrix_flow/ntpfa"], ("border of 'beside'", "limited")),
                                 (["components.heat={type: matrix_heat/tpfa, conductivity: 1 W/(m*K), heat_capacity: 2 J/(m^3*K), initial_temperature: 300 K}",
                                   "couplers=[{type: border_exchange, between: [pore, beside]}, {type: heat_advection, between: [heat, beside], "
-                                  "fluid_heat_capacity: 1 J/(m^3*K)}]", "schedule=[{solve: [pore, beside, heat]}]"], ("crosses the border", "one flow")),
+                                  "fluid_heat_capacity: 1 J/(m^3*K)}]", "schedule=[{solve: [pore, beside, heat]}]"], ("passes to another flow", "one flow")),
                                 (["couplers=[{type: border_exchange, between: [pore]}]"], ("border_exchange", "two components")),
                                 (["couplers=[{type: border_exchange, between: [pore, beside], resistance: -1 Pa*s/m}]"], ("resistance", "-1")),
                                 (["components.beside.permeability=0 m^2", "components.beside.boundary="], ("border", "no permeability")),

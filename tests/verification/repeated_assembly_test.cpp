@@ -246,7 +246,8 @@ TEST(AllTypes, AreInTheScenesOfRepeatedAssembly) {
                                  "matrix_heat/prescribed",  "fine_fracture/boundary_element",
                                  "matrix_transport/mpfa",   "matrix_transport/tpfa",
                                  "fracture_transport/tpfa", "tracer_advection",
-                                 "tracer_exchange"},
+                                 "tracer_exchange",         "outside/program",
+                                 "given_friction",          "given_aperture"},
                         registered;
   SceneRun run("paper/wing_cracks.yaml", coarse);
   for (const std::string section : {"components", "couplers"}) {

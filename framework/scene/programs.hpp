@@ -1,0 +1,18 @@
+// The programs that take part in a run.
+#pragma once
+
+#include <vector>
+
+#include "framework/assembly/part.hpp"
+#include "framework/scene/start_options.hpp"
+
+namespace sprekk {
+
+/// Throws InputError where a part needs a program that the user has not named, or the user has named one for a
+/// component that is none.
+void require_programs(const std::vector<Part*>& parts);
+
+/// Throws InputError for scenes in which a program cannot take part.
+void require_programs_can_join(const std::vector<Part*>& parts, bool has_growth, const StartOptions& start);
+
+}  // namespace sprekk
