@@ -19,6 +19,7 @@
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/stabilizes.hpp"
+#include "framework/assembly/state_fields.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
@@ -64,6 +65,10 @@ class Biot : public Coupler,
                                                        "Fluid stored by the change of volume and of grains"))),
         origin_(context.origin),
         options_(options) {
+    if (auto* formulas = dynamic_cast<TakesExpressions*>(&fluid_))
+      formulas->offer_expression(
+          "eps_v", {&rock_.volume_change(),
+                    Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()).cwiseInverse()});
     alpha_ = Property(options.biot_coefficient, cell_places(mesh_), context.start_time);
     decoupled_ = alpha_.values().isZero(0) && !alpha_.depends_on_time();
     use_alpha();

@@ -46,6 +46,8 @@ class MatrixFluxes {
     const SparseMatrix* matrix;
   };
   virtual std::vector<Derivative> face_flux_derivatives() const = 0;
+  /// Whether the mobility follows the state within a step.
+  virtual bool mobility_follows_state() const { return false; }
   /// The mobility of each cell, m^2/(Pa s).
   virtual const std::vector<Tensor>& mobility() const = 0;
   /// The fluxes in rock of one mobility without fluxes through sides and walls, as this flow discretizes them: right on

@@ -24,6 +24,7 @@ void MatrixFlow::open_border(const Field& outflow, double sign, const std::vecto
     throw InputError(origin_, "no fluid can cross the border of '" + name() + "'",
                      "its limited fluxes keep bounds from the cells around them, which the flow beside it has not",
                      std::string(one_flow) + ", or another type");
+  refuse_with_formula("fluid crosses the border of its regions", "the pressure there would follow the state as well");
   if (buoyancy_) refuse_density_at_border();
   open_faces_.resize(mesh_.face_count(), 0);
   for (int f = 0; f < mesh_.face_count(); ++f)

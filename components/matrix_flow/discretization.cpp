@@ -108,7 +108,9 @@ void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
   // With several processes, cells may have moved to other processes. Discretizations with unknowns on faces and limited
   // ones are local in cells, and done anew in no time.
-  if (!keeps_operators() || parallel::size() > 1 || is_sealed_ || before.is_sealed_ || !before.is_discretized()) return;
+  if (!keeps_operators() || by_state_ || parallel::size() > 1 || is_sealed_ || before.is_sealed_ ||
+      !before.is_discretized())
+    return;
   find_conditions();
   discretize_from({before.mesh_, before.mobility_, before.conditions_}, before.operators_, change);
 }

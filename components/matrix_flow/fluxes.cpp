@@ -86,6 +86,7 @@ std::vector<MatrixFluxes::Derivative> MatrixFlow::face_flux_derivatives() const 
     fluxes_by_density_ = fluxes_by_density(this->flow(State::now));
     for (const auto& [field, matrix] : fluxes_by_density_) derivatives.push_back({field, &matrix});
   }
+  for (const ByState& by : linearized_) derivatives.push_back({by.field, &by.flux});
   if (!is_limited_ || is_sealed_) return derivatives;
   const Flow& flow = this->flow(State::now);
   limited_by_pressure_ = limited_derivative(flow, operators_.limited[0].cell, operators_.limited[1].cell);

@@ -46,6 +46,7 @@ void MatrixFlow::round_limited(double rounding) {
 }
 
 void MatrixFlow::set_search_mode(SearchMode mode) {
+  search_by_state(mode);
   if (!is_limited_ || is_sealed_) return;
   round_limited(mode == SearchMode::piecewise_linear    ? std::numeric_limits<double>::infinity()
                 : mode == SearchMode::without_shortcuts ? with_secants
@@ -54,6 +55,7 @@ void MatrixFlow::set_search_mode(SearchMode mode) {
 }
 
 void MatrixFlow::release_coefficients(double share) {
+  if (by_state_) release_by_state(share);
   if (!is_limited_ || is_sealed_) return;
   constexpr double decades = 14;  // from the largest flux to its round-off
   if (rounding_at_first_ == 0) {

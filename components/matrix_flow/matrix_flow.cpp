@@ -5,6 +5,7 @@
 
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/leaky_sides.hpp"
+#include "components/matrix_flow/state_permeability.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
@@ -14,7 +15,7 @@
 namespace sprekk::matrix_flow {
 
 MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize,
-                       Unknowns unknowns, Fluxes fluxes)
+                       Unknowns unknowns, Fluxes fluxes, DifferentiateFluxes differentiate)
     : Component(context.name),
       mesh_(context.mesh),
       options_(options),
@@ -29,6 +30,7 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
       cumulative_(context.fields.add(
           mesh_, amounts_with(pressure_, context.name, "cumulative_balance", volume_unit,
                               "Fluid stored, injected, and flowed out through the outer boundary", 3))),
+      differentiate_(std::move(differentiate)),
       kind_of_fluxes_(fluxes),
       is_limited_(fluxes == Fluxes::limited) {
   if (mesh_.wall_count() > 0)
@@ -51,7 +53,8 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
   initial_pressure_ = property(options_.initial_pressure).values();
   pressure_.set_both(initial_pressure_);
-  std::ranges::transform(options_.permeability.component, permeability_.begin(), property);
+  find_state_permeability();
+  if (!by_state_) std::ranges::transform(options_.permeability.component, permeability_.begin(), property);
   viscosity_ = property(options_.viscosity);
   if (options_.porosity) porosity_ = property(*options_.porosity);
   if (options_.storage) {
@@ -79,6 +82,10 @@ double MatrixFlow::gravity_potential(const Point& x) const {
 
 void MatrixFlow::begin_step(const StepTime& step) {
   evaluate_data(step);
+  if (by_state_) take_permeability();
+  linearized_.clear();
+  observed_mobility_.clear();
+  takes_derivatives_ = true;
   discretize();
   use_storage();
   apply_boundary();
@@ -107,6 +114,7 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   if (face_pressure_) assembly.derivative(pressure_, *face_pressure_, outflow_of_face_pressure_, step.dt);
   if (is_limited_ && !is_sealed_) assemble_limited(assembly, flows, step.dt);
   if (buoyancy_) assemble_density(assembly, flows, step.dt);
+  if (by_state_) assemble_by_state(assembly, step.dt);
   assembly.compare_with(pressure_, step.dt * face_fluxes().lpNorm<Eigen::Infinity>());
   assembly.compare_with(pressure_, step.dt * largest_before);
   if (wall_flux_) assembly.linear(pressure_, outflow_of_wall_flux_, *wall_flux_, step.dt);

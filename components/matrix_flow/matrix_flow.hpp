@@ -12,10 +12,12 @@
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/matrix_border.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
+#include "components/matrix_flow/flux_derivatives.hpp"
 #include "components/matrix_flow/flux_operators.hpp"
 #include "components/matrix_flow/open_border.hpp"
 #include "components/matrix_flow/rediscretize.hpp"
 #include "components/matrix_flow/side_condition.hpp"
+#include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_work.hpp"
 #include "framework/assembly/follows_mesh.hpp"
@@ -26,6 +28,7 @@
 #include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/piecewise_smooth.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/assembly/state_fields.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 
@@ -33,6 +36,7 @@ namespace sprekk::matrix_flow {
 
 class Buoyancy;
 class LeakySides;
+class StatePermeability;
 
 /// A point source or sink of fluid.
 struct Well {
@@ -74,6 +78,9 @@ struct Options {
 /// With Options::regions there is a flow in these regions only, and no flux through their boundary to other rock: the
 /// discretization has their cells alone (discretize_inside). All other cells keep their initial pressure (rows p −
 /// p_old = 0, times a storage), so they exert no load.
+///
+/// The permeability may be a formula of the state at the end of the step (StatePermeability). Then all operators are
+/// made anew before an assembly with these balances, and Newton's method gets the derivatives of fluxes and traces.
 class MatrixFlow : public Component,
                    public PiecewiseSmooth,
                    public KeepsState,
@@ -87,15 +94,25 @@ class MatrixFlow : public Component,
                    public KeepsTotals,
                    public LivesInPart,
                    public MayStoreNothing,
-                   public NotesStart {
+                   public NotesStart,
+                   public TakesState,
+                   public TakesExpressions,
+                   public FollowsState {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
   /// Whether fluxes are linear in the pressures, or contain FluxOperators::limited.
   enum class Fluxes { linear, two_point, limited };
   MatrixFlow(const ComponentContext& context, const Options& options, Discretize discretize,
-             Unknowns unknowns = Unknowns::on_cells, Fluxes fluxes = Fluxes::linear);
+             Unknowns unknowns = Unknowns::on_cells, Fluxes fluxes = Fluxes::linear,
+             DifferentiateFluxes differentiate = {});
   ~MatrixFlow() override;
+
+  void offer_state(const std::string& variable, const StateField& source) override;
+  void offer_expression(const std::string& variable, const StateExpression& source) override;
+  void require_state() const override;
+  void follow_state(const Assembly& assembly) override;
+  bool mobility_follows_state() const override { return by_state_ != nullptr; }
 
   void evaluate_data(const StepTime& step) override;
   bool allows_stages() const override { return true; }
@@ -113,9 +130,10 @@ class MatrixFlow : public Component,
   /// Limited fluxes are held as the linear mean of both sides, and become smooth functions (`rounding` of `limit`) that
   /// come ever nearer to the limited ones.
   void set_search_mode(SearchMode mode) override;
+  void observe_iterate(const std::vector<Field*>& unknowns) override;
   void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
   void release_coefficients(double share) override;
-  bool is_nonlinear_in_pieces() const override { return is_limited_ && !is_sealed_; }
+  bool is_nonlinear_in_pieces() const override { return by_state_ || (is_limited_ && !is_sealed_); }
   std::uint64_t discrete_state() const override;
   std::vector<double> switch_times() const override;
   bool stores_nothing_somewhere() const override;
@@ -175,6 +193,8 @@ class MatrixFlow : public Component,
   double whole_storage(int cell) const { return storage_[cell] + (rock_storage_.size() > 0 ? rock_storage_[cell] : 0); }
   /// Another number for another mobility.
   std::uint64_t mobility_version() const { return mobility_version_; }
+  /// Takes another discretization; to be called by the constructor.
+  void discretize_with(Discretize discretize) { discretize_ = std::move(discretize); }
   /// Lets begin_step discretize, although mesh and mobility are as before.
   void discretize_anew() { discretized_mesh_ = 0; }
 
@@ -201,6 +221,14 @@ class MatrixFlow : public Component,
   /// Updates mobility and wells after properties have changed.
   void use_properties();
   void check_mobility();
+  /// Of a permeability by formulas: its formulas, what it excludes, its present values, the derivatives at this state.
+  void find_state_permeability();
+  void refuse_with_formula(const std::string& what, const std::string& why) const;
+  void take_permeability();
+  void search_by_state(SearchMode mode);
+  void release_by_state(double share);
+  void linearize();
+  void assemble_by_state(Assembly& assembly, double dt) const;
   /// Spreads each well over the cells around it so that its total rate and its position are kept.
   void place_wells();
   void discretize();
@@ -271,7 +299,22 @@ class MatrixFlow : public Component,
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, symmetric_components> permeability_;  ///< as symmetric_axes has them
   Property viscosity_, porosity_, compressibility_, storage_;
-  Vector rock_storage_;  ///< see accept_rock_storage; empty if no coupler has told it
+  std::unique_ptr<StatePermeability> by_state_;  ///< nullptr where the permeability does not follow the state
+  DifferentiateFluxes differentiate_;
+  std::uint64_t viscosity_of_mobility_ = 0;  ///< version, with by_state_
+  /// Derivatives of fluxes and traces by a field, where the permeability follows it: faces × values of the field.
+  struct ByState {
+    const Field* field;
+    SparseMatrix flux, trace;
+  };
+  bool is_first_attempt_ = true, takes_derivatives_ = true;
+  std::vector<Tensor> observed_mobility_;  ///< at the last iterate; empty before the first
+  std::vector<Tensor> held_mobility_;      ///< c_0 of hold_coefficients; empty where it is not held
+  double released_share_ = 1;              ///< with it
+  std::vector<ByState> linearized_;  ///< about the state of the last assembly; empty where it needed no derivatives
+  LinearExpression wall_pressure_by_state_;  ///< wall_pressure_, linearized about the same state
+  LinearExpression wall_pressure_before_;    ///< the one before, to which another assembly of the same state may refer
+  Vector rock_storage_;                      ///< see accept_rock_storage; empty if no coupler has told it
   bool properties_change_ = false;
   bool viscosity_is_given_ = false;            ///< by a coupler
   std::vector<Tensor> mobility_;               ///< m^2/(Pa s), one a cell

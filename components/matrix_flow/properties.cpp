@@ -21,6 +21,10 @@ std::vector<const Data*> MatrixFlow::properties() const {
 
 void MatrixFlow::use_properties() {
   if (!options_.storage) storage_.set(porosity_.values().cwiseProduct(compressibility_.values()));
+  if (by_state_) {  // take_permeability does the rest
+    if (well_cells_.empty()) place_wells();
+    return;
+  }
   std::uint64_t version = viscosity_.version();
   for (const Property& entry : permeability_) version += entry.version();
   if (version == mobility_version_) return;
@@ -101,6 +105,7 @@ void MatrixFlow::find_regions() {
 
 void MatrixFlow::place_wells() {
   const auto is_like = [&](int cell, int other) {
+    if (by_state_) return mesh_.cell_region[cell] == mesh_.cell_region[other];
     return is_sealed_ || conduct_alike(mobility_[cell], mobility_[other]);
   };
   for (const auto& [name, well] : options_.wells) {

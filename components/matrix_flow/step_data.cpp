@@ -46,6 +46,7 @@ void MatrixFlow::evaluate_data(const StepTime& step) {
   if (is_evaluated) return;
   data_evaluated_ = true;
   evaluated_for_ = step;
+  if (by_state_) take_permeability();
   boundary_applied_ = false;
   forget_flow();
   evaluate_sources(step);

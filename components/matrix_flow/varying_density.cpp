@@ -25,6 +25,8 @@ constexpr double hardly_moves = 0.01;
 
 void MatrixFlow::accept_density(const FluidDensity& in_rock, const FluidDensity* in_fractures) {
   SPREKK_EXPECT(has_gravity() && !buoyancy_, name());
+  refuse_with_formula("the density of its fluid varies",
+                      "what the weight adds to fluxes would follow the state as well");
   if (has_open_border()) refuse_density_at_border();
   buoyancy_ = std::make_unique<Buoyancy>(mesh_, options_.gravity, options_.fluid_density, in_rock, in_fractures);
 }
@@ -40,6 +42,7 @@ void MatrixFlow::use_density() {
 }
 
 const LinearExpression& MatrixFlow::wall_pressure() const {
+  if (!linearized_.empty()) return wall_pressure_by_state_;
   if (!buoyancy_ || operators_of_buoyancy_ == 0) return wall_pressure_;
   if (const auto versions = buoyancy_->wall_versions(); versions != versions_at_walls_) {
     wall_pressure_by_density_ = wall_pressure_;

@@ -40,6 +40,8 @@ Advection::Advection(const CouplerContext& context, const Carried& carried, cons
   if (in_fractures_ && fracture_) fractures_ = contents(context, *in_fractures_, Location::fracture_cell, "fractures");
   if (auto* formulas = dynamic_cast<TakesState*>(fracture_); formulas && fractures_.value && carried_.in_formulas)
     formulas->offer_state(carried_.in_formulas, {fractures_.value});
+  if (auto* formulas = dynamic_cast<TakesState*>(matrix_); formulas && rock_.value && carried_.in_formulas)
+    formulas->offer_state(carried_.in_formulas, {rock_.value});
   find_wells(context);
   for (const FluidContents* place : {&rock_, &fractures_})
     if (place->value) at_start_.push_back(place->value->now());

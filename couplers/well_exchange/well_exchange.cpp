@@ -327,6 +327,19 @@ class WellExchange : public Coupler, public FollowsMesh {
     if (!known.isZero(0)) assembly.add(rate, known);
   }
 
+  /// The same where the permeability of the rock follows the state: with a given index.
+  void open_to_rock_that_follows(int k) {
+    const WellPlace& place = places_[k];
+    if (!place.index)
+      throw InputError(place.origin, "the index of well '" + place.name + "' is not known",
+                       "the permeability of its rock follows the state, and the index would follow it as well",
+                       "give its 'index', or a permeability that does not depend on the state");
+    const PointSource source = point_source(mesh_, place.at, [&](int cell) {
+      return mesh_.cell_region[cell] == mesh_.cell_region[cells_[k]] && rock_->is_in_cell(cell);
+    });
+    around_[k] = {&rock_->pressure(), source.shares};
+  }
+
   /// The cells of a place in rock; finds its index.
   void open_to_rock(int k) {
     const WellPlace& place = places_[k];
@@ -342,11 +355,12 @@ class WellExchange : public Coupler, public FollowsMesh {
       throw InputError(place.origin, "well '" + place.name + "' is open to rock without fluid",
                        "the flow does not live in the region " + mesh_.region_names[mesh_.cell_region[home]],
                        "move the well, or name the region in 'regions' of the flow");
+    cells_[k] = home;
+    if (fluxes_->mobility_follows_state()) return open_to_rock_that_follows(k);
     const Tensor& mobility = fluxes_->mobility()[home];
     if (!(mobility.determinant() > 0))
       throw InputError(place.origin, "well '" + place.name + "' is open to rock that lets no fluid through",
                        "its permeability is zero", "give it a permeability, or move the well");
-    cells_[k] = home;
     const std::vector<char> is_inner = place.index ? std::vector<char>() : inner_cells(mesh_);
     const PointSource source = point_source(mesh_, place.at, [&](int cell) {
       return mesh_.cell_region[cell] == mesh_.cell_region[home] && rock_->is_in_cell(cell) &&

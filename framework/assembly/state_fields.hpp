@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "framework/assembly/linear_expression.hpp"
 #include "framework/config/input_error.hpp"
 #include "framework/config/state.hpp"
 #include "framework/field/field.hpp"
@@ -56,6 +57,21 @@ class TakesState {
   virtual void offer_state(const std::string& variable, const StateField& source) = 0;
   /// Throws InputError where a formula names a variable that has not been offered.
   virtual void require_state() const = 0;
+};
+
+/// A variable on the entities of a mesh: an expression of fields, times a factor for each entity.
+struct StateExpression {
+  const LinearExpression* expression = nullptr;
+  Vector factors = {};
+};
+
+/// A part whose formulas name what others know by expressions (beside TakesState, which asks whether any are missing).
+class TakesExpressions {
+ public:
+  virtual ~TakesExpressions() = default;
+  /// To be called while a scene is built. The expression must outlive this object, and has no rows until the first
+  /// step.
+  virtual void offer_expression(const std::string& variable, const StateExpression& source) = 0;
 };
 
 /// The fields behind the variables of formulas.

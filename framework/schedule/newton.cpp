@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "framework/assembly/assemble_all.hpp"
 #include "framework/config/state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/parallel/interruption.hpp"
@@ -51,6 +52,7 @@ std::unique_ptr<Assembly> Newton::assemble(const StepTime& step) {
   for (PiecewiseSmooth* part : pieces_) part->observe_iterate(unknowns_);
   auto assembly = std::make_unique<Assembly>(std::vector<const Field*>{unknowns_.begin(), unknowns_.end()},
                                              Assembly::Request::residual_and_derivatives, &products_);
+  follow_state(parts_, *assembly);
   for (const Part* part : parts_) part->assemble(*assembly, step);
   if (stabilization_)
     for (const auto& [field, diagonal] : *stabilization_) {

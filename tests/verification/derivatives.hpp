@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/assembly.hpp"
 #include "framework/assembly/part.hpp"
 #include "tests/verification/scene_run.hpp"
@@ -37,22 +38,28 @@ inline void expect_derivatives(SceneRun& run, const std::vector<Spread>& spreads
   const std::vector<Part*> parts = run.model().parts();
   begin_step(parts, step);
   const auto assemble = [&](Assembly& assembly) {
+    follow_state(parts, assembly);
     for (const Part* part : parts) part->assemble(assembly, step);
   };
   Assembly assembly(unknowns, Assembly::Request::residual_and_derivatives);
   assemble(assembly);
   const int count = static_cast<int>(unknowns.size());
-  for (int column = 0; column < count; ++column) {
-    std::vector<Eigen::MatrixXd> given, differences;
+  // Of each column; copied at once, as parts may make their blocks anew for another state.
+  std::vector<std::vector<Eigen::MatrixXd>> given_by(count);
+  for (int column = 0; column < count; ++column)
     for (int row = 0; row < rows; ++row)
-      given.emplace_back(Eigen::MatrixXd::Zero(unknowns[row]->size(), unknowns[column]->size()));
-    differences = given;
-    for (const Assembly::Block& block : assembly.blocks()) {
-      if (block.column != column || block.row >= rows) continue;
-      Eigen::MatrixXd entries = block.factor * Eigen::MatrixXd(*block.matrix);
-      if (block.weights) entries = block.weights->asDiagonal() * entries;
-      given[block.row] += entries;
-    }
+      given_by[column].emplace_back(Eigen::MatrixXd::Zero(unknowns[row]->size(), unknowns[column]->size()));
+  for (const Assembly::Block& block : assembly.blocks()) {
+    if (block.row >= rows) continue;
+    Eigen::MatrixXd entries = block.factor * Eigen::MatrixXd(*block.matrix);
+    if (block.weights) entries = block.weights->asDiagonal() * entries;
+    given_by[block.column][block.row] += entries;
+  }
+  for (int column = 0; column < count; ++column) {
+    const std::vector<Eigen::MatrixXd>& given = given_by[column];
+    std::vector<Eigen::MatrixXd> differences;
+    for (int row = 0; row < rows; ++row)
+      differences.emplace_back(Eigen::MatrixXd::Zero(unknowns[row]->size(), unknowns[column]->size()));
     Field& field = fields.at(unknowns[column]->name());
     const Vector values = field.now();
     const double h = 1e-5 * (spreads[column].high - spreads[column].low);

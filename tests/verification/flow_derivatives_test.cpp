@@ -79,6 +79,30 @@ TEST(FlowDerivatives, OfLimitedFluxes) {
                      with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"}, {"conduit.flux", "conduit.aperture"}}));
 }
 
+/// Of unlike layers; around the tips of fractures anisotropic rock has no singular flow, whose derivatives are held.
+TEST(FlowDerivatives, OfAPermeabilityByFormula) {
+  for (const std::string formula : {"{xx: (1 + 0.4*p/Pa + 0.5*eps_v) m^2, yy: (0.1 + 0.3*x/m*x/m + 0.02*eps_v^2) m^2}",
+                                    "{xx: (2 + x/m) m^2, yy: \"(0.3*exp(0.4*p/Pa - 0.2*eps_v*y/m)) m^2\"}"})
+    for (const std::string type : {"mpfa", "tpfa"}) {
+      std::string text = scene("    aperture_floor: 1 mm");
+      const auto put = [&](const std::string& old, const std::string& other) {
+        text.replace(text.find(old), old.size(), other);
+      };
+      put("matrix_flow/mpfa", "matrix_flow/" + type);
+      put("{along: 1 m^2, across: 0.1 m^2, angle: 30 deg}", formula);
+      SceneRun run = SceneRun::from_text(text);
+      std::vector<Spread> with_rock = spreads;
+      with_rock.push_back({"rock.displacement", -0.3, 0.3});
+      Pairs full = with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"},
+                                      {"conduit.flux", "conduit.aperture"},
+                                      {"pore.pressure", "rock.displacement"}});
+      if (type == "mpfa") full.push_back({"pore.wall_flux", "rock.displacement"});
+      for (auto* part : parts_with<PiecewiseSmooth>(run.model().parts()))
+        part->set_search_mode(SearchMode::without_shortcuts);
+      expect_derivatives(run, with_rock, rows, full);
+    }
+}
+
 TEST(FlowDerivatives, OfTheCubicLawAboveAndBelowItsFloor) {
   SceneRun run = SceneRun::from_text(scene("    aperture_floor: 0.9 m"));
   expect_derivatives(run, spreads, rows,

@@ -16,6 +16,8 @@ struct MpfaLimits {
   /// Largest difference of the permeability of a cell from that at a tip, relative: the tip's flow is that in even
   /// rock.
   double alike = 0.2;
+  /// Cells of one region count as alike instead: where the permeability follows the state, a limit would be a jump.
+  bool alike_in_region = false;
   EndLimits near = {};
 };
 

@@ -69,8 +69,10 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const Inter
   subfaces_ = region.subface_count();
   columns_ = subcells;
   for (int f = 0; f < subfaces_; ++f) columns_ += !region.is_inner(f);
-  const int width = subfaces_ + columns_;
+  const bool has_derivatives = derivatives_ == Derivatives::by_mobility;
+  const int inverse_column = subfaces_ + columns_, width = inverse_column + (has_derivatives ? subfaces_ : 0);
   system_.assign(subfaces_ * width, 0);
+  weights_of_ = weights_of;
   weights_.resize(subcells);
   for (int k = 0; k < subcells; ++k)
     weights_[k] = (this->*weights_of)(region.subcells[k], mobility[region.subcells[k].cell], k);
@@ -83,6 +85,7 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const Inter
       row[f] = row[boundary_column++] = 1;
       continue;
     }
+    if (has_derivatives) row[inverse_column + f] = 1;
     // The fluxes out of the neighbours add up to zero, or to the share of what is prescribed for the face.
     for (const int k : region.neighbours[f]) {
       SPREKK_ASSERT(k == none || is_index(k, subcells), f, k, subcells);
@@ -101,7 +104,14 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const Inter
   for (int f = 0; f < subfaces_; ++f)
     std::copy_n(system_.data() + f * width + subfaces_, columns_, pressures_.data() + f * columns_);
 
+  if (has_derivatives) {
+    inverse_.resize(subfaces_ * subfaces_);
+    for (int f = 0; f < subfaces_; ++f)
+      std::copy_n(system_.data() + f * width + inverse_column, subfaces_, inverse_.data() + f * subfaces_);
+  }
+
   fluxes_.assign(subfaces_ * columns_, 0);
+  side_.assign(subfaces_, 0);
   for (int f = 0; f < subfaces_; ++f) {
     // The flux can be computed from either side. The expression of the less permeable side has less cancellation.
     int side = 0;
@@ -109,6 +119,7 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const Inter
       const auto trace = [&](int s) { return mobility[region.subcells[region.neighbours[f][s]].cell].trace(); };
       side = trace(1) < trace(0) ? 1 : 0;
     }
+    side_[f] = side;
     const int k = region.neighbours[f][side];
     double* flux = fluxes_.data() + f * columns_;
     for (int i = 0; i < dimension; ++i) {
@@ -117,6 +128,38 @@ void LocalFluxes::solve_with(WeightsOf weights_of, const Mesh& mesh, const Inter
       for (int j = 0; j < columns_; ++j) flux[j] += weight * face_pressure[j];
       flux[k] -= weight;
     }
+  }
+}
+
+void LocalFluxes::by_mobility(const InteractionRegion& region, const std::vector<FlowCondition>& conditions,
+                              int subcell, const Tensor& change, const std::vector<double>& given,
+                              Change& result) const {
+  SPREKK_EXPECT(derivatives_ == Derivatives::by_mobility && weights_of_, subcell);
+  SPREKK_EXPECT(static_cast<int>(given.size()) == columns_, given.size(), columns_);
+  const auto& subfaces = region.subcells[subcell].subfaces;
+  // With the pressures held, the fluxes into the subcell change by these.
+  const Weights weights = (this->*weights_of_)(region.subcells[subcell], change, subcell);
+  std::array<double, dimension> into{}, drop{};
+  for (int j = 0; j < dimension; ++j) {
+    const double* of_given = pressure(subfaces[j]);
+    drop[j] = -given[subcell];
+    for (int c = 0; c < columns_; ++c) drop[j] += of_given[c] * given[c];
+  }
+  for (int i = 0; i < dimension; ++i)
+    for (int j = 0; j < dimension; ++j) into[i] += weights[i][j] * drop[j];
+  // The pressures follow so that the fluxes of both sides agree again.
+  result.pressure.assign(subfaces_, 0);
+  for (int i = 0; i < dimension; ++i) {
+    if (conditions[region.faces[subfaces[i]]] == FlowCondition::pressure) continue;
+    for (int f = 0; f < subfaces_; ++f) result.pressure[f] += inverse_[f * subfaces_ + subfaces[i]] * into[i];
+  }
+  result.flux.assign(subfaces_, 0);
+  for (int f = 0; f < subfaces_; ++f) {
+    if (conditions[region.faces[f]] == FlowCondition::flux) continue;
+    const int k = region.neighbours[f][side_[f]], place = region.place(f, k);
+    double flux = k == subcell ? into[place] : 0;
+    for (int i = 0; i < dimension; ++i) flux += weights_[k][place][i] * result.pressure[region.subcells[k].subfaces[i]];
+    result.flux[f] = side_[f] == 0 ? -flux : flux;
   }
 }
 

@@ -28,6 +28,10 @@ class LocalFluxes {
   /// exact for linear pressures only in the cells that are named above.
   enum class Stabilizer { none, points, damping, blend };
 
+  /// Whether by_mobility is to be called.
+  enum class Derivatives { none, by_mobility };
+  explicit LocalFluxes(Derivatives derivatives = Derivatives::none) : derivatives_(derivatives) {}
+
   /// Throws std::runtime_error if the local system is singular.
   Stabilizer solve(const Mesh& mesh, int node, const InteractionRegion& region, const std::vector<Tensor>& mobility,
                    const std::vector<FlowCondition>& conditions);
@@ -36,6 +40,15 @@ class LocalFluxes {
   const double* pressure(int subface) const { return pressures_.data() + subface * columns_; }
   /// The flux through a subface out of its first cell (m^2/s; m^3/s in three dimensions).
   const double* flux(int subface) const { return fluxes_.data() + subface * columns_; }
+  /// What the fluxes through all subfaces, and the pressures at them, change by with the mobility of a subcell, where
+  /// it changes by `change` (m^2/(Pa s)) and the columns have the values `given`. What a stabilizer does to a region
+  /// stays as it is.
+  struct Change {
+    std::vector<double> flux, pressure;  ///< m^2/s, Pa
+  };
+  void by_mobility(const InteractionRegion& region, const std::vector<FlowCondition>& conditions, int subcell,
+                   const Tensor& change, const std::vector<double>& given, Change& result) const;
+  int columns() const { return columns_; }
   /// Where the pressures of both sides of a subface agree; its part may differ from that of continuity_point.
   const ContinuityPoint& point(int subface) const { return points_[subface]; }
 
@@ -59,12 +72,16 @@ class LocalFluxes {
   /// these subfaces, Pa.
   Matrix kinks(const Mesh& mesh, int node, const InteractionRegion& region) const;
 
+  Derivatives derivatives_;
   int subfaces_ = 0, columns_ = 0;
   std::vector<double> system_, pressures_, fluxes_;
   std::vector<ContinuityPoint> points_;                 ///< of the subfaces
   std::vector<std::array<Point, dimension>> arm_;       ///< of the subcells, from the centre to the points, m
   std::vector<std::array<Point, dimension>> gradient_;  ///< of the subcells, as Subcell::gradient
   std::vector<Weights> weights_;                        ///< of the subcells
+  WeightsOf weights_of_ = nullptr;                      ///< that gave these
+  std::vector<int> side_;                               ///< of each subface, 0 or 1, from which its flux is computed
+  std::vector<double> inverse_;  ///< subfaces × subfaces: pressures by fluxes that enter; with Derivatives::by_mobility
 };
 
 }  // namespace sprekk::matrix_flow

@@ -30,7 +30,9 @@ std::optional<TipFlow> TipFlow::find(const Mesh& mesh, int tip, const std::vecto
   Tensor mean = Tensor::Zero();
   for (const int cell : at_tip) mean += mobility[cell] / static_cast<double>(at_tip.size());
   for (const int cell : cells)
-    if (!resembles(mobility[cell], mean, limits.alike)) return std::nullopt;
+    if (!(limits.alike_in_region ? mesh.cell_region[cell] == mesh.cell_region[at_tip[0]]
+                                 : resembles(mobility[cell], mean, limits.alike)))
+      return std::nullopt;
   if (!is_isotropic(mean)) return std::nullopt;
   TipFlow flow(mesh, tip, cells, mean);
   // On a side the cells may all lie in one layer across the rim, so that nothing tells what changes along it.

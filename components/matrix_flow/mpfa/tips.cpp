@@ -28,7 +28,10 @@ class TipFlows {
     for (int node = 0; node < mesh.node_count(); ++node) {
       const auto found = flows_.find(tips[node]);
       if (found == flows_.end()) continue;
-      const auto is_alike = [&](int cell) { return resembles(mobility[cell], found->second.mobility(), limits.alike); };
+      const auto is_alike = [&](int cell) {
+        return limits.alike_in_region ? mesh.cell_region[cell] == mesh.cell_region[mesh.node_cells[tips[node]][0]]
+                                      : resembles(mobility[cell], found->second.mobility(), limits.alike);
+      };
       // A rim in space may meet a side, whose given pressure knows nothing of the flow around the rim.
       const auto is_free = [&](int face) {
         return mesh.face_side[face] == none || conditions[face] == FlowCondition::flux;

@@ -1,5 +1,6 @@
 // matrix_flow/tpfa: flow in the matrix with this flux approximation.
 #include "components/matrix_flow/matrix_flow.hpp"
+#include "components/matrix_flow/state_permeability.hpp"
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -8,16 +9,18 @@ namespace {
 
 struct TpfaOptions : Options {
   Spec spec() {
-    return Options::spec("matrix_flow/tpfa",
-                         "Flow in the matrix (the paper's Eq. 6): two-point flux approximation, monotone; consistent "
-                         "on orthogonal meshes only.");
+    Spec spec = Options::spec("matrix_flow/tpfa",
+                              "Flow in the matrix (the paper's Eq. 6): two-point flux approximation, monotone; "
+                              "consistent on orthogonal meshes only.");
+    may_be_formula(spec.name(), "permeability", permeability_variables());
+    return spec;
   }
 };
 
 class Tpfa : public MatrixFlow {
  public:
   Tpfa(const ComponentContext& context, const TpfaOptions& options)
-      : MatrixFlow(context, options, discretize_tpfa, Unknowns::on_cells, Fluxes::two_point) {}
+      : MatrixFlow(context, options, discretize_tpfa, Unknowns::on_cells, Fluxes::two_point, differentiate_tpfa) {}
 };
 
 const RegisterComponent<Tpfa, TpfaOptions> registration("matrix_flow/tpfa");

@@ -81,4 +81,30 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
           assemble(inexact, mesh.face_count())};
 }
 
+std::vector<FluxDerivatives> differentiate_tpfa(const FlowInputs& flow, const std::vector<char>& nodes,
+                                                const FluxState& state, const std::vector<std::vector<Tensor>>& by) {
+  const auto& [mesh, mobility, conditions] = flow;
+  FluxDerivativeEntries entries(by.size());
+  for (int face = 0; face < mesh.face_count(); ++face) {
+    const FaceNodes& ends = mesh.face_nodes[face];
+    if (!nodes.empty() && !std::ranges::all_of(ends, [&](int node) { return nodes[node] != 0; })) continue;
+    const auto [cell, other] = mesh.face_cells[face];
+    const double half = half_transmissibility(mesh, mobility[cell], cell, face), given = state.boundary[face];
+    for (std::size_t variable = 0; variable < by.size(); ++variable) {
+      const auto change = [&](int of) { return half_transmissibility(mesh, by[variable][of], of, face); };
+      if (conditions[face] == FlowCondition::flux) {
+        entries.add_to_trace(variable, face, cell, given / (half * half) * change(cell));
+      } else if (conditions[face] == FlowCondition::pressure) {
+        entries.add_to_flux(variable, face, cell, (state.cells[cell] - given) * change(cell));
+      } else {
+        const double other_half = half_transmissibility(mesh, mobility[other], other, face);
+        const double part = other_half / (half + other_half), drop = state.cells[cell] - state.cells[other];
+        entries.add_to_flux(variable, face, cell, part * part * drop * change(cell));
+        entries.add_to_flux(variable, face, other, (1 - part) * (1 - part) * drop * change(other));
+      }
+    }
+  }
+  return entries.take(mesh);
+}
+
 }  // namespace sprekk::matrix_flow

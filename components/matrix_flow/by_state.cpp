@@ -1,0 +1,151 @@
+// The flow where the permeability is a formula of the state.
+#include <algorithm>
+#include <utility>
+
+#include "components/matrix_flow/buoyancy.hpp"
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "components/matrix_flow/state_permeability.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/invariants.hpp"
+#include "framework/mesh/cell_sums.hpp"
+#include "framework/parallel/parallel.hpp"
+
+namespace sprekk::matrix_flow {
+
+void MatrixFlow::find_state_permeability() {
+  by_state_ = StatePermeability::find(options_.permeability, mesh_, pressure_, origin_);
+  if (!by_state_) return;
+  SPREKK_EXPECT(differentiate_, name());
+  if (!inside_.empty())
+    throw InputError(options_.regions_origin, "a flow in some 'regions' has a permeability that follows the state",
+                     "its derivatives are known for a flow in all cells", "leave 'regions' out");
+  properties_change_ = true;
+}
+
+void MatrixFlow::offer_state(const std::string& variable, const StateField& source) {
+  if (by_state_) by_state_->offer(variable, source);
+}
+
+void MatrixFlow::offer_expression(const std::string& variable, const StateExpression& source) {
+  if (by_state_) by_state_->offer(variable, source);
+}
+
+void MatrixFlow::require_state() const {
+  if (by_state_) by_state_->require(name());
+}
+
+void MatrixFlow::refuse_with_formula(const std::string& what, const std::string& why) const {
+  if (by_state_)
+    throw InputError(origin_, "the permeability of '" + name() + "' follows the state, and " + what, why,
+                     "give a permeability that does not depend on the state, or leave that part out");
+}
+
+void MatrixFlow::take_permeability() {
+  const bool has_changed = by_state_->evaluate(evaluated_for_.end);
+  if (!has_changed && viscosity_of_mobility_ == viscosity_.version()) return;
+  viscosity_of_mobility_ = viscosity_.version();
+  mobility_ = by_state_->values();
+  for (int c = 0; c < mesh_.cell_count(); ++c) mobility_[c] /= viscosity_[c];
+  for (std::size_t c = 0; c < held_mobility_.size(); ++c)
+    mobility_[c].diagonal() = held_mobility_[c].diagonal().array().pow(1 - released_share_) *
+                              mobility_[c].diagonal().array().pow(released_share_);
+  ++mobility_version_;
+}
+
+void MatrixFlow::search_by_state(SearchMode mode) {
+  if (!by_state_) return;
+  is_first_attempt_ = mode == SearchMode::with_shortcuts;
+  takes_derivatives_ = true;
+  observed_mobility_.clear();
+  viscosity_of_mobility_ = 0;
+  held_mobility_.clear();
+  if (mode != SearchMode::piecewise_linear) return;
+  take_permeability();
+  held_mobility_ = mobility_;
+  release_by_state(0);
+}
+
+void MatrixFlow::release_by_state(double share) {
+  viscosity_of_mobility_ = 0;
+  released_share_ = share;
+  if (share == 1) held_mobility_.clear();
+}
+
+void MatrixFlow::follow_state(const Assembly& assembly) {
+  if (!by_state_ || !assembly.has_row(pressure_)) return;
+  SPREKK_EXPECT(discretized_mesh_ == mesh_.version, name());
+  take_permeability();
+  linearized_.clear();
+  if (!is_discretized()) {
+    discretize();
+    apply_boundary();
+    use_density();
+  }
+  if (assembly.wants_derivatives() && takes_derivatives_) linearize();
+}
+
+/// With its derivatives the permeability of cells that a front of pressure has yet to reach leads Newton's method away:
+/// fluxes into them may seem to grow with their pressure. So the first attempt leaves them out after an update that has
+/// changed a permeability by much.
+void MatrixFlow::observe_iterate(const std::vector<Field*>& unknowns) {
+  if (!by_state_ || std::ranges::count(unknowns, &pressure_) == 0) return;
+  constexpr double little = 0.1;  // of a permeability: with less, quadratic terms are a hundredth
+  take_permeability();
+  double change = 0;
+  for (std::size_t c = 0; c < observed_mobility_.size(); ++c) {
+    const double now = mobility_[c].lpNorm<Eigen::Infinity>(), before = observed_mobility_[c].lpNorm<Eigen::Infinity>();
+    change = std::max(change, (mobility_[c] - observed_mobility_[c]).lpNorm<Eigen::Infinity>() / std::max(now, before));
+  }
+  observed_mobility_ = mobility_;
+  takes_derivatives_ = !is_first_attempt_ || parallel::max(change) < little;
+}
+
+void MatrixFlow::linearize() {
+  FluxState state{pressure_.now() - gravity_potential_cell_, boundary_values_, boundary_changes_};
+  if (wall_flux_) state.boundary += boundary_of_wall_flux_ * wall_flux_->now();
+  for (const OpenBorder& border : borders_) state.boundary += border.boundary * border.outflow->now();
+  std::vector<std::vector<Tensor>> by;
+  for (std::size_t k = 0; k < by_state_->variable_count(); ++k) {
+    by.push_back(by_state_->by(k));
+    for (int c = 0; c < mesh_.cell_count(); ++c) by.back()[c] /= viscosity_[c];
+    for (std::size_t c = 0; c < held_mobility_.size(); ++c)
+      for (int axis = 0; axis < dimension; ++axis)
+        by.back()[c](axis, axis) *=
+            released_share_ * mobility_[c](axis, axis) / (by_state_->values()[c](axis, axis) / viscosity_[c]);
+  }
+  const std::vector<FluxDerivatives> derivatives =
+      differentiate_({mesh_, mobility_, conditions_}, nodes_to_discretize(mesh_), state, by);
+  for (std::size_t k = 0; k < derivatives.size(); ++k)
+    for (const auto& [field, of_variable] : by_state_->derivatives_of_variable(k))
+      linearized_.push_back({field, derivatives[k].flux * of_variable, derivatives[k].trace * of_variable});
+  if (!wall_flux_) return;
+  std::vector<Triplet> entries;
+  for (int w = 0; w < mesh_.wall_count(); ++w)
+    if (is_owned(mesh_, Location::wall, w)) entries.emplace_back(w, mesh_.wall_face(w), 1.0);
+  SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
+  pick_walls.setFromTriplets(entries.begin(), entries.end());
+  wall_pressure_before_ = std::move(wall_pressure_by_state_);
+  wall_pressure_by_state_ = wall_pressure_;
+  for (const ByState& by_field : linearized_) {
+    const SparseMatrix at_walls = pick_walls * by_field.trace;
+    if (at_walls.nonZeros() == 0) continue;
+    wall_pressure_by_state_.constant -= at_walls * by_field.field->now();
+    wall_pressure_by_state_.terms.push_back({by_field.field, Operator(at_walls)});
+  }
+}
+
+void MatrixFlow::assemble_by_state(Assembly& assembly, double dt) const {
+  if (!assembly.wants_derivatives()) return;
+  std::vector<char> is_outer(mesh_.face_count()), is_inner(mesh_.face_count());
+  for (int f = 0; f < mesh_.face_count(); ++f) is_inner[f] = !(is_outer[f] = mesh_.face_cells[f][1] == none);
+  for (const ByState& by : linearized_) {
+    if (!assembly.has_row(*by.field)) continue;
+    const auto outflow = [&](const std::vector<char>& faces) {
+      return cell_sums(mesh_, SparseMatrix(dt * keep_rows(by.flux, faces)), 1, parallel::rank());
+    };
+    assembly.exchange_derivative(pressure_, *by.field, outflow(is_inner));
+    assembly.derivative(pressure_, *by.field, outflow(is_outer));
+  }
+}
+
+}  // namespace sprekk::matrix_flow
