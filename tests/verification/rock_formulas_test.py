@@ -3,7 +3,7 @@
 
 - Closed forms: steady flow with k = k0 exp(g p) by Kirchhoff's transform, through unlike layers, with orders; turned and mirrored; a column whose strain is known.
 - Transient flow against finite volumes in NumPy. Second order in time with sdirk2.
-- One answer in every schedule, with and without condensing, on two processes; a restart has the same bits; a constant formula the answer of the constant.
+- One answer in every schedule, with and without condensing, by both programs, on two processes; a restart has the same bits; a constant formula the answer of the constant.
 - What is refused."""
 
 import math
@@ -271,6 +271,16 @@ schedule: [{solve: [pore, heat]}]""")
             refused = self.call("check", self.write(text))
             self.assertEqual(refused.returncode, 2, msg=text)
             self.assertIn(message, refused.stderr)
+
+    def test_in_space(self):
+        """A column of known strain, in tetrahedra."""
+        strain = -3e6 / (10e9 * 0.75 / (1.25 * 0.5))
+        known = K / MU * (1 + strain / 1e-3) ** 3 * 1e6 / 2
+        text = put(PRESSED, KIND="mpfa", ROCK="fem", FORMULA="1e-15 m^2*(1 + eps_v/1e-3)^3").replace("y: [0 m, 1 m]}", "y: [0 m, 1 m], z: [0 m, 1 m]}").replace("size: 0.25 m", "size: 0.6 m")
+        text = text.replace("bottom: {displacement", "front: {displacement_normal: 0 m}, back: {displacement_normal: 0 m}, bottom: {displacement")
+        run = self.run_scene(self.write(text))
+        outflow = next(values[-1] for name, values in run.history.items() if name.startswith("pore.right.outflow"))
+        self.assertLess(abs(outflow / known - 1), 1e-9)
 
     @on_two_processes
     def test_two_processes(self):
