@@ -154,15 +154,15 @@ bool refines_few(const LinearSystem& system, const UnknownBlock& block) {
   return false;
 }
 
-// The blocks of each part of the bulk: elliptic ones first. A multigrid has the potentials of one owner with those on
-// fractures.
+// The blocks of each part of the bulk: elliptic ones first.
 std::vector<Blocks> blocks_of_parts(const LinearSystem& system) {
   std::vector<Blocks> parts;
   for (const UnknownBlock& block : system.blocks)
     if (is_kind(block, BlockKind::bulk_elliptic)) parts.push_back({&block});
-  const bool is_of_one_owner =
-      std::ranges::all_of(parts, [&](const Blocks& part) { return owner_of(*part[0]) == owner_of(*parts[0][0]); });
-  if (!parts.empty() && is_of_one_owner) {
+  const auto is_of_first_owner = [&](const Blocks& part) { return owner_of(*part[0]) == owner_of(*parts[0][0]); };
+  const bool deforms = std::ranges::any_of(
+      system.blocks, [](const UnknownBlock& block) { return is_kind(block, BlockKind::bulk_elastic); });
+  if (!parts.empty() && !deforms && std::ranges::all_of(parts, is_of_first_owner)) {
     Blocks potentials;
     for (const Blocks& part : parts) potentials.push_back(part[0]);
     for (const UnknownBlock& block : system.blocks)
@@ -216,7 +216,6 @@ Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), 
   }
   for (std::size_t part = 0; part < blocks.size(); ++part) {
     parts[part].block = joined(blocks[part], place_of);
-    parts[part].has_fractures = blocks[part].back()->kind == BlockKind::interface;
   }
   for (std::size_t row = 0; row < system.rows.size(); ++row) {
     SystemPart& part = parts[part_of[system.rows[row]]];
