@@ -35,23 +35,27 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
 
   std::vector<SparseMatrix> bulk;
   for (int part = 0; part < local; ++part) {
-    const UnknownBlock& block = partition.parts[part].block;
+    UnknownBlock block = partition.parts[part].block;
     SparseMatrix& a = bulk.emplace_back(sub_matrix(system.local, partition, part, part));
     a += elimination_->correction(system, partition, part);
     const std::vector<int>& owned = partition.parts[part].owned;
+    const bool has_fractures = partition.parts[part].has_fractures;
+    // Multi-point fluxes reach far, by entries that cost a multigrid more than they help it. With a stabilization the
+    // block stands for a Schur complement, unless it has the potentials on fractures as well.
+    if (block.kind == BlockKind::bulk_elliptic && (block.stabilization.size() == 0 || has_fractures))
+      a = without_small_entries(a, owned);
     if (block.stabilization.size() > 0) {
       SparseMatrix diagonal(a.rows(), a.cols());
       diagonal.reserve(Eigen::VectorXi::Ones(a.rows()));
       for (std::size_t k = 0; k < owned.size(); ++k)
         diagonal.insert(static_cast<int>(k), owned[k]) = block.stabilization[owned[k]];
       a += diagonal;
-    } else if (block.kind == BlockKind::bulk_elliptic) {
-      // Multi-point fluxes reach far, by entries that cost a multigrid more than they help it.
-      a = without_small_entries(a, owned);
+      // Fractures that conduct well matter more to a multigrid than what the diagonal stands for.
+      if (has_fractures) block.stabilization.resize(0);
     }
     std::unique_ptr<Multigrid> cycle = trilinos().multigrid(a, owned, block);
     std::vector<int> zone;
-    if (block.kind == BlockKind::bulk_elastic) zone = elimination_->beside(partition, part);
+    if (block.kind == BlockKind::bulk_elastic && block.components == 3) zone = elimination_->beside(partition, part);
     cycles_.push_back(zone.empty() ? std::move(cycle)
                                    : std::make_unique<CycleWithZone>(a, owned, std::move(zone), std::move(cycle)));
   }

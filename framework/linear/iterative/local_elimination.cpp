@@ -119,6 +119,12 @@ std::string owner_of(const UnknownBlock& block) { return block.name.substr(0, bl
 
 bool is_kind(const UnknownBlock& block, BlockKind kind) { return block.kind == kind && block.entities > 0; }
 
+/// Whether displacements have three components. In a plane there are few unknowns on fractures, and to eliminate them
+/// is as good as a multigrid that has them, at less cost.
+bool are_in_space(const UnknownBlock& block) {
+  return is_kind(block, BlockKind::bulk_elastic) && block.components == 3;
+}
+
 /// Whether the translations of `moving` leave the unknowns of `other` at zero, as those of middles of edges that are
 /// counted from the mean of their ends: the rows of `other` then have no force from them. Collective.
 bool rests_with(const LinearSystem& system, const UnknownBlock& moving, const UnknownBlock& other) {
@@ -144,7 +150,7 @@ bool rests_with(const LinearSystem& system, const UnknownBlock& moving, const Un
 /// Whether a block of displacements refines those of an earlier block of its owner at a few places, such as tips: then
 /// it is eliminated as what is on fractures.
 bool refines_few(const LinearSystem& system, const UnknownBlock& block) {
-  if (!is_kind(block, BlockKind::bulk_elastic)) return false;
+  if (!are_in_space(block)) return false;
   for (const UnknownBlock& first : system.blocks) {
     if (&first == &block) return false;
     if (is_kind(first, BlockKind::bulk_elastic) && owner_of(first) == owner_of(block) &&
@@ -154,15 +160,18 @@ bool refines_few(const LinearSystem& system, const UnknownBlock& block) {
   return false;
 }
 
-// The blocks of each part of the bulk: elliptic ones first.
+// The blocks of each part of the bulk: elliptic ones first. A multigrid has the potentials of one owner with those on
+// fractures, but beside deformation in a plane.
 std::vector<Blocks> blocks_of_parts(const LinearSystem& system) {
   std::vector<Blocks> parts;
   for (const UnknownBlock& block : system.blocks)
     if (is_kind(block, BlockKind::bulk_elliptic)) parts.push_back({&block});
-  const auto is_of_first_owner = [&](const Blocks& part) { return owner_of(*part[0]) == owner_of(*parts[0][0]); };
-  const bool deforms = std::ranges::any_of(
-      system.blocks, [](const UnknownBlock& block) { return is_kind(block, BlockKind::bulk_elastic); });
-  if (!parts.empty() && !deforms && std::ranges::all_of(parts, is_of_first_owner)) {
+  const bool is_of_one_owner =
+      std::ranges::all_of(parts, [&](const Blocks& part) { return owner_of(*part[0]) == owner_of(*parts[0][0]); });
+  const bool deforms_in_plane = std::ranges::any_of(system.blocks, [](const UnknownBlock& block) {
+    return is_kind(block, BlockKind::bulk_elastic) && !are_in_space(block);
+  });
+  if (!parts.empty() && is_of_one_owner && !deforms_in_plane) {
     Blocks potentials;
     for (const Blocks& part : parts) potentials.push_back(part[0]);
     for (const UnknownBlock& block : system.blocks)
@@ -216,6 +225,7 @@ Partition::Partition(const LinearSystem& system) : part_of(system.local.cols(), 
   }
   for (std::size_t part = 0; part < blocks.size(); ++part) {
     parts[part].block = joined(blocks[part], place_of);
+    parts[part].has_fractures = blocks[part].back()->kind == BlockKind::interface;
   }
   for (std::size_t row = 0; row < system.rows.size(); ++row) {
     SystemPart& part = parts[part_of[system.rows[row]]];

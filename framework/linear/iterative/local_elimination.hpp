@@ -12,6 +12,7 @@ namespace sprekk {
 /// A block of the system for a multigrid cycle, or (the last part of a partition) all local unknowns together.
 struct SystemPart {
   UnknownBlock block;           ///< what a multigrid may know; without a name for the local part
+  bool has_fractures = false;   ///< whether potentials on fractures are among those of the bulk
   std::vector<int> unknowns;    ///< global numbers of all unknowns of the part, ascending
   std::vector<int> owned;       ///< places in `unknowns` of those whose rows this process holds
   std::vector<int> owned_rows;  ///< their places among this process's rows
