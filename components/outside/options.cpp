@@ -38,8 +38,8 @@ Spec GivenOptions::spec() {
                {"nodes", "for each node of the rock"},
                {"fracture_cells", "for each cell of the fractures"}},
               {.doc = "Where it has values."});
-  spec.integer("components", components,
-               {.range = between(1, 9), .doc = "Numbers of each value: 2 for a vector in a plane."});
+  spec.integer("per_place", components,
+               {.range = between(1, 9), .doc = "Numbers in each place: 2 for a vector in a plane."});
   spec.text("unit", unit, {.doc = "SI unit; empty for a plain number.", .required = true});
   spec.text("initial", initial,
             {.doc = "Value at the start: a number with its unit, or an expression of the place.", .required = true});
