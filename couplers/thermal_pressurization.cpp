@@ -134,17 +134,16 @@ class ThermalPressurization : public Coupler, public FollowsMesh, public KeepsTo
   }
 
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {
-    const auto name_of = [&](auto* capability) -> std::string {
-      using Capability = std::remove_pointer_t<decltype(capability)>;
-      for (const Component* component : components)
-        if (dynamic_cast<const Capability*>(component)) return component->name();
-      return "";
-    };
     const auto is_given = [](Component* component) {
       auto* fluid = dynamic_cast<MatrixFluid*>(component);
       return fluid && !fluid->pressure().spec().role.is_unknown();
     };
-    if (std::ranges::any_of(components, is_given)) return;
+    const auto name_of = [&](auto* capability) -> std::string {
+      using Capability = std::remove_pointer_t<decltype(capability)>;
+      for (Component* component : components)
+        if (dynamic_cast<const Capability*>(component) && !is_given(component)) return component->name();
+      return "";
+    };
     const std::string fluid = name_of(static_cast<MatrixFluid*>(nullptr)),
                       heat = name_of(static_cast<MatrixTemperature*>(nullptr)),
                       rock = name_of(static_cast<PoroelasticRock*>(nullptr));

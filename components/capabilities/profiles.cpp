@@ -4,6 +4,7 @@
 #include <string>
 
 #include "framework/config/data_reader.hpp"
+#include "framework/config/expression.hpp"
 #include "framework/config/spec.hpp"
 
 namespace sprekk {
@@ -13,7 +14,8 @@ constexpr double standard_gravity = 9.80665;  // m/s^2 (BIPM, The International 
 
 /// The parameters of a profile, and its value at a depth below its datum, m.
 struct Profile {
-  double datum = 0;  ///< m, of the vertical axis
+  double datum = 0;            ///< m, of the vertical axis
+  bool ends_at_datum = false;  ///< whether it has no value above
   virtual ~Profile() = default;
   virtual Spec spec() = 0;
   virtual double at_depth(double depth) const = 0;
@@ -54,12 +56,8 @@ struct Lithostatic : Profile {
     declare_gravity_of_profile(spec, gravity);
     return spec;
   }
-  double at_depth(double depth) const override {
-    constexpr double round_off = 1e-9;  // of heights: far above that of their differences
-    if (depth < -round_off * (1 + std::abs(datum)))
-      throw DataError("'lithostatic' has no value above the 'surface', " + std::to_string(-depth) + " m above it");
-    return ratio * (at_surface - density * gravity * depth);
-  }
+  Lithostatic() { ends_at_datum = true; }
+  double at_depth(double depth) const override { return ratio * (at_surface - density * gravity * depth); }
 };
 
 struct Geothermal : Profile {
@@ -86,8 +84,16 @@ struct RegisterProfile {
                          "it is no quantity in " + unit + ", which this profile is", "give a number, or an expression");
       const auto law = std::make_shared<Law>();
       law->spec().read(*node.find(key), request.context);
-      return Data([law](const Place& place) { return law->at_depth(law->datum - place.x[dimension - 1]); }, false,
-                  true);
+      const auto value = [law, key, where = node.origin, name = request.name](const Place& place) {
+        constexpr double round_off = 1e-9;  // of heights: far above that of their differences
+        const double depth = law->datum - place.x[dimension - 1];
+        if (law->ends_at_datum && depth < -round_off * (1 + std::abs(law->datum)))
+          throw DataError(InputError(where, "'" + name + "' has no value at " + place_text(place),
+                                     "the place is above the 'surface' of '" + key + "'", "raise 'surface'")
+                              .what());
+        return law->at_depth(depth);
+      };
+      return Data(value, false, true);
     };
   }
 };

@@ -13,11 +13,11 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
-#include <fstream>
 #include <thread>
 #include <vector>
 
 #include "framework/outside/outside_error.hpp"
+#include "framework/parallel/environment_at_start.hpp"
 #include "framework/parallel/interruption.hpp"
 
 namespace sprekk {
@@ -26,14 +26,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-/// The environment that this process was started with: what MPI adds to it is for this process alone.
-std::vector<std::string> environment_at_start() {
-  std::ifstream file("/proc/self/environ", std::ios::binary);
-  std::vector<std::string> variables;
-  for (std::string variable; std::getline(file, variable, '\0');) variables.push_back(variable);
-  return variables;
-}
 
 /// While it lives, writing to a pipe that nobody reads is an error of the call, and no signal.
 class WithoutPipeSignal {
@@ -80,7 +72,7 @@ struct Pipe {
 
 ProgramProcess::ProgramProcess(const std::string& command) {
   Pipe to, from;
-  std::vector<std::string> words = {"/bin/sh", "-c", command}, variables = environment_at_start();
+  std::vector<std::string> words = {"/bin/sh", "-c", command}, variables = parallel::environment_at_start();
   std::vector<char*> arguments, environment;
   for (std::string& word : words) arguments.push_back(word.data());
   for (std::string& variable : variables) environment.push_back(variable.data());

@@ -2,6 +2,7 @@
 #include "framework/scene/model.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/keeps_totals.hpp"
@@ -46,12 +47,15 @@ void Model::build_settling(const ScheduleContext& context) {
       throw InputError(start.origin, "'" + name + "' cannot be settled", "it has no unknowns",
                        "remove it from 'settle'");
   }
-  for (const Part* part : parts_)
+  for (const Part* part : parts_) {
+    std::vector<Dependence> needs = part->dependences();
     if (const auto* rests = dynamic_cast<const RestsTogether*>(part))
-      for (const Dependence& dependence : rests->dependences_at_rest())
-        if (is_settled(dependence.component) && !is_settled(dependence.on))
-          throw InputError(start.origin, "'" + dependence.component + "' is settled without '" + dependence.on + "'",
-                           dependence.because, "name both in 'settle'");
+      std::ranges::copy(rests->dependences_at_rest(), std::back_inserter(needs));
+    for (const Dependence& dependence : needs)
+      if (is_settled(dependence.component) && !is_settled(dependence.on))
+        throw InputError(start.origin, "'" + dependence.component + "' is settled without '" + dependence.on + "'",
+                         dependence.because, "name both in 'settle'");
+  }
   SolveOptions options;
   options.components = start.settle;
   options.origin = start.origin;

@@ -6,9 +6,9 @@
 
 #include <csignal>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
+
+#include "framework/parallel/environment_at_start.hpp"
 
 namespace sprekk {
 namespace {
@@ -23,10 +23,10 @@ void count_loss(int) {
 }
 
 std::vector<std::string> environment(const std::map<std::string, std::string>& settings) {
-  std::ifstream file("/proc/self/environ", std::ios::binary);
-  std::vector<std::string> variables;
-  for (std::string variable; std::getline(file, variable, '\0');)
-    if (settings.count(variable.substr(0, variable.find('='))) == 0) variables.push_back(variable);
+  std::vector<std::string> variables = parallel::environment_at_start();
+  std::erase_if(variables, [&](const std::string& variable) {
+    return settings.count(variable.substr(0, variable.find('='))) > 0;
+  });
   for (const auto& [name, value] : settings) variables.push_back(name + "=" + value);
   return variables;
 }

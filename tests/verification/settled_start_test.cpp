@@ -234,7 +234,7 @@ TEST(SettledStart, MistakesAreRefused) {
   has(said(scene, start, "start: {settle: rok}"), "did you mean 'rock'");
   has(said(with_fault(frames[0], 0.6), "settle: [rock, contact]", "settle: rock"), "is settled without 'contact'");
   has(said(scene, start, "start: {settle: rock, from: results}"), "'from' contradicts 'settle'");
-  has(said(with_fault(frames[0], 0.6), "settle: [rock, contact]", "settle: [contact]"), "is solved without");
+  has(said(with_fault(frames[0], 0.6), "settle: [rock, contact]", "settle: [contact]"), "is settled without");
   has(said(column(frames[3]) + without_fault, "type: poromechanics/fem", "type: poromechanics/fem\n    order: first"),
       "use 'order: second'");
 }
