@@ -219,10 +219,9 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     constexpr double rounding = 1e-6;  // of the largest jump: far above round-off
     if (jump.size() == 0 || jump[dimension * deepest] >= -rounding * jump.lpNorm<Eigen::Infinity>()) return;
     notes.add("overlapping walls of " + rock_.wall_traction().spec().owner,
-              fmt::format("walls of fractures overlap by {:.3g} m at {} (no contact keeps them apart) {}",
-                          -jump[dimension * deepest], to_text(mesh_.fracture_cells[deepest].center),
-                          dimension == 2 ? "add a contact to the scene and to the coupler"
-                                         : "raise the pressure in fractures: contact is for scenes in a plane so far"),
+              fmt::format("walls of fractures overlap by {:.3g} m at {} (no contact keeps them apart) add a contact to "
+                          "the scene and to the coupler",
+                          -jump[dimension * deepest], to_text(mesh_.fracture_cells[deepest].center)),
               -jump[dimension * deepest]);
   }
 
