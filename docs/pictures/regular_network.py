@@ -19,7 +19,7 @@ ROOT = HERE.parents[1]
 sys.path.insert(0, str(ROOT / "tools/python"))
 import sprekk
 
-REFERENCE = np.loadtxt(ROOT / "tests/verification/reference/regular_network.csv", delimiter=",")
+REFERENCE = np.loadtxt(ROOT / "tests/verification/references/regular_network.csv", delimiter=",")
 SQUARES = round(len(REFERENCE) ** 0.5)
 BLOCKING = ["--set", "components.conduit.transmissivity_value=1e-8 m^3",
             "--set", "components.conduit.normal_permeability_value=2 m/(Pa*s)"]

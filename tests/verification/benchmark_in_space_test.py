@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """benchmark_in_space_test.py SPREKK [MPIEXEC]: flow of Berre and others, Adv. Water Resour. 147 (2021) 103759: case 1 (one fracture), case 2
-(a regular network, conducting and blocking) along the published lines, against the finest published solutions (tests/verification/reference);
+(a regular network, conducting and blocking) along the published lines, against the finest published solutions (tests/verification/references);
 their tracers against the mean and the spread of published solutions. Case 3 (small features) and case 4 (52 fractures) take minutes and are not run here.
 
 Distances are root mean squares over that of the published heads. Twins: values that are disturbed by 1e-9, the axes in another order, GMRES
@@ -23,7 +23,7 @@ TRACER = ["in_bottom[kg/m^3*m^3]", "in_fracture[kg/m^3*m^2]", "tracer_outflow[kg
 
 
 def reference(name):
-    return np.loadtxt(ROOT / f"tests/verification/reference/{name}.csv", delimiter=",").T
+    return np.loadtxt(ROOT / f"tests/verification/references/{name}.csv", delimiter=",").T
 
 
 class BenchmarkInSpace(SceneRuns):

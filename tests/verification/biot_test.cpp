@@ -13,7 +13,7 @@ namespace {
 
 Vector areas(const Mesh& mesh) { return Eigen::Map<const Vector>(mesh.cell_measure.data(), mesh.cell_count()); }
 
-const std::string references = std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/";
+const std::string references = std::string(SPREKK_SOURCE_DIR) + "/tests/verification/references/";
 
 /// p/p0 after m backward-Euler steps (verification.yaml: H = 1, c = 1, p0 = 1, drained at y = 0).
 double terzaghi(double y, double dt, int steps) {

@@ -174,7 +174,7 @@ TEST(CrossingFill, ConductsHeatAsItConductsFluid) {
   EXPECT_NEAR(heat(", crossings: {x: {through: a}}"), exact(20), 1e-9 * exact(20));
 }
 
-/// The flow through a unit square with a barrier, from the left to the right, as in tests/verification/reference/
+/// The flow through a unit square with a barrier, from the left to the right, as in tests/verification/references/
 /// crossing.py.
 double flow_across(const std::vector<double>& row, const std::string& mesh) {
   const double barrier = row[0], conductor = row[1], along = row[2], normal = row[3], k = row[4];
@@ -200,7 +200,7 @@ double flow_across(const std::vector<double>& row, const std::string& mesh) {
 TEST(CrossingFill, HasTheFlowOfAnEquidimensionalSolution) {
   // Fractures without width leave rock in their place: right to about their width, of the lengths over which the rock
   // takes pressure. A conductor that goes through has its ends 0.1 m from the sides, where lines replace blunt ends.
-  const auto reference = read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/crossing.csv");
+  const auto reference = read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/references/crossing.csv");
   ASSERT_EQ(reference.size(), 24u);
   for (const std::vector<double>& row : reference) {
     const double flow = flow_across(row, "{size: 0.1, fracture_size: 0.05}");

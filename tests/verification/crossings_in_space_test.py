@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """crossings_in_space_test.py SPREKK [MPIEXEC]: unlike fractures on the lines where they cross, and where three meet in a point.
 
-Against closed forms, and against an equi-dimensional solution of the plane (reference/crossing.py) that is extruded. Turned about no axis,
+Against closed forms, and against an equi-dimensional solution of the plane (references/crossing.py) that is extruded. Turned about no axis,
 mirrored, with values that differ by 1e-9, and on two processes between which the line is divided."""
 
 import unittest

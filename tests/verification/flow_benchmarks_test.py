@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """flow_benchmarks_test.py SPREKK [MPIEXEC]: cases 1, 3 and 4 of Flemisch and others, Adv. Water Resour. 111 (2018) 239 (case 2, the
-regular network, is in junction_flow_test.cpp), against the paper's reference (3) and finite elements (1, 4) in tests/verification/reference.
+regular network, is in junction_flow_test.cpp), against the paper's reference (3) and finite elements (1, 4) in tests/verification/references.
 
 Errors are relative to the range of the pressures of the reference. Twins: turned and mirrored, with values that are disturbed by 1e-9,
 and on two processes."""
@@ -17,7 +17,7 @@ FROM_THE_TOP = ["components.pore.boundary=", "components.pore.boundary={top: {pr
 
 
 def reference(name):
-    return np.loadtxt(ROOT / f"tests/verification/reference/{name}.csv", delimiter=",")
+    return np.loadtxt(ROOT / f"tests/verification/references/{name}.csv", delimiter=",")
 
 
 class FlowBenchmarks(SceneRuns):

@@ -15,7 +15,7 @@ struct Mode {
 std::vector<Mode> modes() {
   std::vector<Mode> modes;
   for (const auto& row :
-       read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/single_mode_fracture.csv"))
+       read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/references/single_mode_fracture.csv"))
     modes.push_back({row[0], row[1], row[2], row[3], row[4]});
   return modes;
 }

@@ -8,7 +8,7 @@
 namespace sprekk::testing {
 namespace {
 
-const std::string references = std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/";
+const std::string references = std::string(SPREKK_SOURCE_DIR) + "/tests/verification/references/";
 
 /// lambda(T) of the table, linear between its rows.
 double front(double load) {

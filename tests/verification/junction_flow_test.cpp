@@ -350,7 +350,7 @@ TEST(Junctions, HaveTheDerivativesOfTheirEquations) {
 /// Root mean square of the errors of mean pressures of squares, over the difference of the pressures there are.
 double network_error(bool is_blocking, const std::string& mesh_text) {
   const auto reference =
-      read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/regular_network.csv");
+      read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/references/regular_network.csv");
   const int squares = static_cast<int>(std::lround(std::sqrt(reference.size())));
   std::vector<Override> overrides = {{"mesh", mesh_text}};
   if (is_blocking) {

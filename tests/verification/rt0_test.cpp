@@ -126,7 +126,7 @@ TEST(Rt0, TerzaghiIsOfSecondOrder) {
 }
 
 TEST(Rt0, BarryMercerConvergesToTheTable) {
-  const auto rows = read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/reference/barry_mercer.csv");
+  const auto rows = read_numbers(std::string(SPREKK_SOURCE_DIR) + "/tests/verification/references/barry_mercer.csv");
   std::vector<double> errors(2, -1);  // extrapolated in time
   for (const int steps : {50, 100}) {
     SceneRun run(

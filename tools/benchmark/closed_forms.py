@@ -10,8 +10,8 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def table(name):
-    """Numbers of tests/verification/reference/NAME.csv, without comments."""
-    with open(ROOT / "tests/verification/reference" / f"{name}.csv", encoding="utf-8") as file:
+    """Numbers of tests/verification/references/NAME.csv, without comments."""
+    with open(ROOT / "tests/verification/references" / f"{name}.csv", encoding="utf-8") as file:
         rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
     return np.array(rows, dtype=float)
 
