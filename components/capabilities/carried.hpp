@@ -78,7 +78,7 @@ class FractureCarried {
   /// As in MatrixCarried.
   virtual const Vector& capacity() const = 0;
   /// The value that is prescribed in this step where a fracture ends on a side, at a ridge.
-  virtual std::optional<double> end_value(int point) const = 0;
+  virtual std::optional<double> end_value(int ridge) const = 0;
   /// The conductance between the middle of the fracture and each wall, per area: Carried::flux_unit over the unit of
   /// the value, one a wall.
   virtual const Vector& wall_conductance() const = 0;

@@ -131,7 +131,7 @@ void FractureFlow::pass_crossing(std::size_t junction, const Vector& walls,
     const double passed = 1 / std::max(left, least);
     const double by_half = left < least ? passed : way.kept * passed * passed;
     half.by_aperture *= by_half;
-    for (auto& [point, by] : half.by_flux) by *= by_half;
+    for (auto& [ridge, by] : half.by_flux) by *= by_half;
     half.value *= passed;
   }
 }
@@ -224,14 +224,14 @@ FractureFlow::FurtherDrop FractureFlow::further_drop(const Link& link) const {
 
 /// The columns of the apertures, and those of each further variable of the formula, which may be a sum of fields.
 void FractureFlow::derive_by_state(Assembly& assembly, const std::vector<Triplet>& entries) const {
-  const int points = flux_.size(), count = mesh_.fracture_cell_count();
+  const int ridges = flux_.size(), count = mesh_.fracture_cell_count();
   const auto derive = [&](int kind, const StateField& by) {
     std::vector<Triplet> own;
     const int components = by.field->spec().components;
     for (const Triplet& entry : entries)
       if (entry.col() / count == kind)
         own.emplace_back(entry.row(), entry.col() % count * components + by.component, by.factor * entry.value());
-    SparseMatrix matrix(points, by.field->size());
+    SparseMatrix matrix(ridges, by.field->size());
     matrix.setFromTriplets(own.begin(), own.end());
     assembly.derivative(flux_, *by.field, std::move(matrix));
   };
@@ -242,8 +242,8 @@ void FractureFlow::derive_by_state(Assembly& assembly, const std::vector<Triplet
 
 void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) const {
   if (!assembly.has_row(flux_)) return;
-  const int points = flux_.size(), count = mesh_.fracture_cell_count();
-  FluxRows rows{step.dt, Vector::Ones(points), Vector::Zero(points), {}, {}, {}};
+  const int ridges = flux_.size(), count = mesh_.fracture_cell_count();
+  FluxRows rows{step.dt, Vector::Ones(ridges), Vector::Zero(ridges), {}, {}, {}};
   if (density_) find_excess();
   const std::vector<JunctionFluxes> at_junctions = junction_fluxes();
   for (const Link& link : links_) {
@@ -262,13 +262,13 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
   assembly.compare_round_off(flux_, rows.largest_pressure);
   assembly.diagonal(flux_, flux_, rows.of_flux);
   if (!assembly.wants_derivatives()) return;
-  SparseMatrix pressures(points, count);
+  SparseMatrix pressures(ridges, count);
   pressures.setFromTriplets(rows.by_pressure.begin(), rows.by_pressure.end());
   assembly.derivative(flux_, pressure_, std::move(pressures));
   derive_by_state(assembly, rows.by_aperture);
   if (density_) assemble_density(assembly, rows);
   if (rows.by_flux.empty()) return;
-  SparseMatrix fluxes(points, points);
+  SparseMatrix fluxes(ridges, ridges);
   fluxes.setFromTriplets(rows.by_flux.begin(), rows.by_flux.end());
   assembly.derivative(flux_, flux_, std::move(fluxes));
 }
@@ -301,8 +301,8 @@ void FractureFlow::add_row(const Link& link, const Conductance& c, FluxRows& row
   // The derivative of scale (q − C dp) by an aperture, where d scale / da = −scale^2 dC/da.
   for (const auto& [cell, by] : c.by_aperture)
     rows.by_aperture.emplace_back(link.ridge, cell, -scale * by * dp - scale * scale * by * (q - c.value * dp));
-  for (const auto& [point, by] : c.by_flux)
-    rows.by_flux.emplace_back(link.ridge, point, -scale * by * dp - scale * scale * by * (q - c.value * dp));
+  for (const auto& [ridge, by] : c.by_flux)
+    rows.by_flux.emplace_back(link.ridge, ridge, -scale * by * dp - scale * scale * by * (q - c.value * dp));
 }
 
 /// Adds zero entries wherever any hub would have entries: the hub of a junction may change from one iteration to the
@@ -314,8 +314,8 @@ void FractureFlow::add_pattern(const Link& link, FluxRows& rows) const {
   for (const int cell : junction.cells)
     for (int k = 0; k < kinds_of_columns(); ++k)
       rows.by_aperture.emplace_back(link.ridge, cell + k * mesh_.fracture_cell_count(), 0);
-  for (const int point : junction.ridges)
-    if (point != link.ridge) rows.by_flux.emplace_back(link.ridge, point, 0);
+  for (const int ridge : junction.ridges)
+    if (ridge != link.ridge) rows.by_flux.emplace_back(link.ridge, ridge, 0);
   for (const auto& [ridge, by] : further_drop(link).by_flux) rows.by_flux.emplace_back(link.ridge, ridge, 0);
   if (!has_inertia()) return;
   for (const int cell : junction.cells)
@@ -326,11 +326,11 @@ void FractureFlow::add_row(const Link& link, const JunctionFluxes::Flux& flux, F
   const double scale = scale_of_row(link, flux.conductance.value, rows.dt);
   double rest = flux_.now()[link.ridge];
   rows.of_flux[link.ridge] = scale;
-  for (const auto& [point, share] : flux.parts) {
-    const double q = flux_.now()[point];
+  for (const auto& [ridge, share] : flux.parts) {
+    const double q = flux_.now()[ridge];
     rest -= share.value * q;
     rows.drop[link.ridge] -= scale * share.value * q;
-    rows.by_flux.emplace_back(link.ridge, point, -scale * share.value);
+    rows.by_flux.emplace_back(link.ridge, ridge, -scale * share.value);
     for (const auto& [cell, by] : share.by_aperture) rows.by_aperture.emplace_back(link.ridge, cell, -scale * by * q);
     for (const auto& [other, by] : share.by_flux) rows.by_flux.emplace_back(link.ridge, other, -scale * by * q);
   }

@@ -28,7 +28,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
                                      .location = Location::ridge,
                                      .role = Role::unknown(BlockKind::interface),
                                      .unit = volume_rate_unit,
-                                     .doc = "Flux along the fractures, from the first to the second cell of a point"})),
+                                     .doc = "Flux along the fractures, from the first to the second cell of a ridge"})),
       aperture_(context.fields.add(mesh_, {.owner = context.name,
                                            .name = "aperture",
                                            .location = Location::fracture_cell,
@@ -113,8 +113,8 @@ void FractureFlow::carry_over(const Part&, const MeshChange& change) {
     goes_on = false;
     for (int i = 0; i < pressure.size(); ++i) {
       if (known[i]) continue;
-      for (const int point : mesh_.fracture_cells[i].ridges)
-        for (const int other : mesh_.ridges[point].cells)
+      for (const int ridge : mesh_.fracture_cells[i].ridges)
+        for (const int other : mesh_.ridges[ridge].cells)
           if (known[other] && !known[i] && mesh_.fracture_cells[other].fracture == mesh_.fracture_cells[i].fracture) {
             pressure[i] = pressure[other];
             known[i] = 1;
@@ -151,27 +151,27 @@ void FractureFlow::make_links(const StepTime& step) {
     for (std::size_t k = 0; k < mesh_.junctions[j].ridges.size(); ++k)
       place_of[mesh_.junctions[j].ridges[k]] = {static_cast<int>(j), static_cast<int>(k)};
   for (int i = 0; i < static_cast<int>(mesh_.ridges.size()); ++i) {
-    const Ridge& point = mesh_.ridges[i];
-    Link link{i, point.cells[0], none, place_of[i].first, place_of[i].second};
-    Point other = point.center;
-    if (point.cells.size() == 2) {
-      link.second = point.cells[1];
+    const Ridge& ridge = mesh_.ridges[i];
+    Link link{i, ridge.cells[0], none, place_of[i].first, place_of[i].second};
+    Point other = ridge.center;
+    if (ridge.cells.size() == 2) {
+      link.second = ridge.cells[1];
       other = mesh_.fracture_cells[link.second].center;
     } else {
-      if (point.kind != Ridge::Kind::on_boundary) continue;
+      if (ridge.kind != Ridge::Kind::on_boundary) continue;
       Place place = fracture_cell_place(mesh_, link.first);
-      place.x = point.center;
-      const std::optional<OutsideOfRock> outside = outside_of_end(point, place, step);
+      place.x = ridge.center;
+      const std::optional<OutsideOfRock> outside = outside_of_end(ridge, place, step);
       if (!outside) continue;
       link.boundary_pressure = outside->pressure;
       link.end_conductance = outside->conductance;
       link.only_out = outside->only_out;
-      check_bound(link.boundary_pressure, options_.boundary_origins.at(mesh_.side_names[point.side]), "the pressure");
+      check_bound(link.boundary_pressure, options_.boundary_origins.at(mesh_.side_names[ridge.side]), "the pressure");
     }
     if (!is_in_fracture_cell(link.first) || (link.second != none && !is_in_fracture_cell(link.second))) continue;
     if (!options_.gravity.is_zero())
       link.gravity = options_.fluid_density *
-                     options_.gravity.at({point.center, 0, 0}).dot(mesh_.fracture_cells[link.first].center - other);
+                     options_.gravity.at({ridge.center, 0, 0}).dot(mesh_.fracture_cells[link.first].center - other);
     links_.push_back(link);
   }
 }
@@ -217,14 +217,14 @@ FractureFlow::Transmissivity FractureFlow::transmissivity(int cell) const {
   return cubic_law(cell);
 }
 
-FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int point) const {
+FractureFlow::Transmissivity FractureFlow::transmissivity(int cell, int ridge) const {
   if (!options_.is_constant()) return cubic_law(cell);
-  return {given_transmissivity(cell, point) / viscosity_[cell], 0};
+  return {given_transmissivity(cell, ridge) / viscosity_[cell], 0};
 }
 
-double FractureFlow::given_transmissivity(int cell, int point) const {
+double FractureFlow::given_transmissivity(int cell, int ridge) const {
   const FractureCell& at = mesh_.fracture_cells[cell];
-  const Point& position = mesh_.ridges[point].center;
+  const Point& position = mesh_.ridges[ridge].center;
   const auto away = [&](int ridge) { return (mesh_.ridges[ridge].center - position).squaredNorm(); };
   const auto nearest = std::ranges::min_element(at.ridges, [&](int a, int b) { return away(a) < away(b); });
   return transmissivity_of_part_[nearest - at.ridges.begin()][cell];

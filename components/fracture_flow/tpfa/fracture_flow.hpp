@@ -155,7 +155,7 @@ class FractureFlow : public Component,
   ConductionState state_in(int cell) const;  ///< the aperture is not set
   Transmissivity transmissivity(int cell) const;
   /// The same for the half of the cell at one of its ridges.
-  Transmissivity transmissivity(int cell, int point) const;
+  Transmissivity transmissivity(int cell, int ridge) const;
   Transmissivity cubic_law(int cell) const;
   bool is_held() const { return held_aperture_.size() > 0; }
   /// By the law, from the present aperture and the held one, if any; the derivative is by the present one.
@@ -209,7 +209,7 @@ class FractureFlow : public Component,
   /// Leads the halves through what fills the crossing.
   void pass_crossing(std::size_t junction, const Vector& walls, std::vector<JunctionFluxes::Half>& halves) const;
   /// K (m^3) of the half of a cell at one of its ridges, where the transmissivity is given.
-  double given_transmissivity(int cell, int point) const;
+  double given_transmissivity(int cell, int ridge) const;
   double pressure_drop(const Link& link) const;
   bool is_shut(const Link& link) const;  ///< an end that lets out only, where fluid would enter
   /// What other fluxes than the one through the link add to its pressure drop, with derivatives by fluxes and
@@ -272,7 +272,7 @@ class FractureFlow : public Component,
     double own = 0;  ///< without what fills a crossing
     std::vector<std::pair<int, double>> own_by_aperture = {};
   };
-  std::vector<HalfCell> halves_at(int point, int home) const;
+  std::vector<HalfCell> halves_at(int ridge, int home) const;
   bool is_alone(const Spot& spot, const std::vector<HalfCell>& halves, int home) const;
   static double part_before(const Spot& spot, const HalfCell& home);
   /// The cells of a whole fracture, and their shares, which add up to 1.

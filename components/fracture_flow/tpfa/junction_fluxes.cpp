@@ -8,7 +8,7 @@ namespace {
 using Derivatives = std::vector<std::pair<int, double>>;
 
 void add(double factor, const Derivatives& given, Derivatives& sum) {
-  for (const auto& [point, by] : given) sum.emplace_back(point, factor * by);
+  for (const auto& [ridge, by] : given) sum.emplace_back(ridge, factor * by);
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ JunctionFluxes::JunctionFluxes(const Junction& junction, int fracture_cells, std
   }
 }
 
-int JunctionFluxes::point_between(int one, int other) const {
+int JunctionFluxes::ridge_between(int one, int other) const {
   const auto found = std::find(ends_.begin(), ends_.end(), std::pair(std::min(one, other), std::max(one, other)));
   return junction_.ridges[found - ends_.begin()];
 }
@@ -37,7 +37,7 @@ JunctionFluxes::Flux::Part JunctionFluxes::part(int from, int to, double sign) c
   Derivatives by_flux;
   add(sign / hub.value, half.by_flux, by_flux);
   add(-share / hub.value, hub.by_flux, by_flux);
-  return {point_between(hub_, to), {share, by_cell(by_aperture), by_flux}};
+  return {ridge_between(hub_, to), {share, by_cell(by_aperture), by_flux}};
 }
 
 std::vector<std::pair<int, double>> JunctionFluxes::by_cell(const Vector& by_aperture) const {

@@ -43,7 +43,7 @@ class JunctionFluxes {
     Conductance conductance;
     /// The share of the flux through another ridge.
     struct Part {
-      int point;
+      int ridge;
       Conductance share;  ///< without unit; the sign accounts for the directions of both fluxes
     };
     std::vector<Part> parts;
@@ -53,7 +53,7 @@ class JunctionFluxes {
 
  private:
   Flux::Part part(int from, int to, double sign) const;
-  int point_between(int one, int other) const;
+  int ridge_between(int one, int other) const;
   /// Derivatives by the apertures of the junction's cells, with their numbers.
   std::vector<std::pair<int, double>> by_cell(const Vector& by_aperture) const;
 

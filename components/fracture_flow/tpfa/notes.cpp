@@ -180,10 +180,10 @@ void FractureFlow::note_ends_on_two_sides(Notes& notes) const {
 
 void FractureFlow::note_ends(Notes& notes) const {
   if (!rock_fluid_) return;
-  for (const Ridge& point : mesh_.ridges) {
-    if (point.kind != Ridge::Kind::on_boundary || !rock_fluid_->is_open(point.side)) continue;
-    const int cell = point.cells[0];
-    const std::string& side = mesh_.side_names[point.side];
+  for (const Ridge& ridge : mesh_.ridges) {
+    if (ridge.kind != Ridge::Kind::on_boundary || !rock_fluid_->is_open(ridge.side)) continue;
+    const int cell = ridge.cells[0];
+    const std::string& side = mesh_.side_names[ridge.side];
     const bool holds_pressure =
         is_prescribed_[cell] || std::ranges::count(prescribed_points_, cell, &OpenPoint::cell) > 0;
     const auto is_wet = [&](int wall_face) { return rock_fluid_->is_in_cell(mesh_.face_cells[wall_face][0]); };

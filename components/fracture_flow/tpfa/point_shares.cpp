@@ -85,11 +85,11 @@ Point FractureFlow::point_at(int cell, const Point& at) const {
 }
 
 /// The conductances from the centres of the cells that meet at an end of a cell to this end.
-std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home) const {
-  const Ridge& end = mesh_.ridges[point];
+std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int ridge, int home) const {
+  const Ridge& end = mesh_.ridges[ridge];
   std::vector<HalfCell> halves;
   if (end.kind == Ridge::Kind::junction) {
-    const auto is_here = [point](const Junction& junction) { return std::ranges::count(junction.ridges, point) > 0; };
+    const auto is_here = [ridge](const Junction& junction) { return std::ranges::count(junction.ridges, ridge) > 0; };
     const auto junction = std::ranges::find_if(mesh_.junctions, is_here);
     const std::vector<JunctionFluxes::Half> own =
         options_.is_constant() ? given_halves(*junction) : halves_by_opening(*junction);
@@ -105,20 +105,20 @@ std::vector<FractureFlow::HalfCell> FractureFlow::halves_at(int point, int home)
       halves.push_back({junction->cells[k], values[k].value, by_cell(values[k].by_aperture), own[k].value,
                         by_cell(own[k].by_aperture)});
   } else if (end.cells.size() == 2 && !options_.is_constant()) {
-    const std::array<HydraulicHalf, 2> values = halves_by_opening(Link{point, end.cells[0], end.cells[1], none, none});
+    const std::array<HydraulicHalf, 2> values = halves_by_opening(Link{ridge, end.cells[0], end.cells[1], none, none});
     for (int k = 0; k < 2; ++k) {
       const int cell = end.cells[k];
       const auto& [a, by_present, by_state] = values[k].hydraulic;
-      HalfCell half{cell, a * a * a / (12 * viscosity_[cell] * half_length(cell, point)), {}};
+      HalfCell half{cell, a * a * a / (12 * viscosity_[cell] * half_length(cell, ridge)), {}};
       for (int i = 0; i < 2; ++i)
         half.by_aperture.emplace_back(end.cells[i], 3 * half.conductance / a * by_present * values[k].by_aperture[i]);
       halves.push_back(std::move(half));
     }
   } else {
     for (const int cell : end.cells) {
-      const auto [value, by_aperture, by_state] = transmissivity(cell, point);
-      HalfCell half{cell, value / half_length(cell, point), {}};
-      if (by_aperture != 0) half.by_aperture.emplace_back(cell, by_aperture / half_length(cell, point));
+      const auto [value, by_aperture, by_state] = transmissivity(cell, ridge);
+      HalfCell half{cell, value / half_length(cell, ridge), {}};
+      if (by_aperture != 0) half.by_aperture.emplace_back(cell, by_aperture / half_length(cell, ridge));
       halves.push_back(std::move(half));
     }
   }
