@@ -86,8 +86,11 @@ ColumnName column_name(const std::string& column) {
 }
 
 std::string display_text(double value, const std::string& si_unit, int digits) {
+  return display_text(value, display_unit(si_unit, std::isfinite(value) ? std::abs(value) : 0), digits);
+}
+
+std::string display_text(double value, const DisplayUnit& unit, int digits) {
   if (!std::isfinite(value)) return "–";
-  const DisplayUnit unit = display_unit(si_unit, std::abs(value));
   const std::string number = fmt::format("{:.{}g}", value / unit.scale, digits);
   if (unit.text.rfind("10", 0) == 0) return number + "·" + unit.text;
   return unit.text.empty() ? number : number + " " + unit.text;

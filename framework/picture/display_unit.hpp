@@ -30,5 +30,7 @@ ColumnName column_name(const std::string& column);
 
 /// "7.98 MPa": an SI value with `digits` significant digits; "–" if it is not finite.
 std::string display_text(double value, const std::string& si_unit, int digits = 4);
+/// The same in a unit that several values share.
+std::string display_text(double value, const DisplayUnit& unit, int digits = 4);
 
 }  // namespace sprekk

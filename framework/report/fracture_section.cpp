@@ -10,6 +10,7 @@
 #include "framework/report/fracture_names.hpp"
 #include "framework/report/fracture_path.hpp"
 #include "framework/report/html.hpp"
+#include "framework/report/quiet_values.hpp"
 #include "framework/report/sections.hpp"
 #include "framework/types.hpp"
 
@@ -58,11 +59,41 @@ double largest_of(const FractureHistory& through, const std::string& array) {
   return largest;
 }
 
+/// A component of an array at all times and in all cells of a fracture.
+std::vector<double> values_of(const FractureHistory& through, const Grid::Values& sample, int component) {
+  std::vector<double> all;
+  for (std::size_t t = 0; t < through.times.size(); ++t) {
+    const Grid::Values* const values = through.grids[t]->find(sample.name);
+    if (values == nullptr) continue;
+    for (const FracturePath& path : through.paths[t])
+      for (const int cell : path.cells)
+        all.push_back(values->values[static_cast<std::size_t>(cell * values->components + component)]);
+  }
+  return all;
+}
+
+/// Of all arrays that are drawn along fractures.
+SizesOfUnits sizes_in(const std::map<int, FractureHistory>& all) {
+  SizesOfUnits sizes;
+  for (const auto& [fracture, through] : all)
+    for (const Grid* grid : through.grids)
+      for (const Grid::Values& array : grid->arrays)
+        if (array.place == Grid::Place::cell) sizes.add(column_name(array.name).unit, array.values);
+  return sizes;
+}
+
+DisplayUnit time_unit_of(const FractureHistory& through) { return display_unit("s", through.times.back()); }
+
 double longest_of(const FractureHistory& through) {
   double longest = 0;
   for (const auto& paths : through.paths)
     for (const FracturePath& path : paths) longest = std::max({longest, std::abs(path.start), std::abs(path.end)});
   return longest;
+}
+
+std::string title_of(const Grid::Values& sample, int component) {
+  static const char* const axes[] = {", x", ", y"};
+  return column_name(sample.name).quantity + (sample.components > 1 ? axes[component] : "");
 }
 
 /// One component of an array along the fracture at all times.
@@ -71,14 +102,14 @@ Panel panel_along(const FractureHistory& through, const Grid::Values& sample, in
   const DisplayUnit unit = display_unit(name.unit, largest_of(through, sample.name)),
                     length = display_unit("m", longest_of(through));
   Panel panel;
-  static const char* const axes[] = {", x", ", y"};
-  panel.title = name.quantity + (sample.components > 1 ? axes[component] : "");
+  panel.title = title_of(sample, component);
   panel.x_label = "arc length [" + length.text + "]";
   panel.y_label = unit.text;
+  const DisplayUnit time_unit = time_unit_of(through);
   for (std::size_t t = 0; t < through.times.size(); ++t) {
     const Grid::Values* const values = through.grids[t]->find(sample.name);
     if (values == nullptr) continue;
-    Curve curve{display_text(through.times[t], "s"), {}, {}, time_style(t, through.times.size())};
+    Curve curve{display_text(through.times[t], time_unit), {}, {}, time_style(t, through.times.size())};
     for (const FracturePath& path : through.paths[t]) {
       if (!curve.x.empty()) curve.x.push_back(nothing), curve.y.push_back(nothing);
       for (std::size_t i = 0; i < path.cells.size(); ++i) {
@@ -113,7 +144,7 @@ Panel paths_panel(const std::map<int, FractureHistory>& all) {
   for (const auto& [fracture, through] : all)
     for (std::size_t t = 0; t < through.times.size(); ++t) {
       Curve& curve = curves[-through.times[t]];
-      curve.name = display_text(through.times[t], "s");
+      curve.name = display_text(through.times[t], time_unit_of(through));
       curve.style = time_style(t, count);
       for (const FracturePath& path : through.paths[t]) {
         if (!curve.x.empty()) curve.x.push_back(nothing), curve.y.push_back(nothing);
@@ -150,6 +181,7 @@ std::string fracture_section(const RunResults& results) {
   text += html_paragraph(
       "Curves are coloured by time, from dark to light. The arc length begins at the end of the fracture where it was "
       "first written; what has grown there since has negative lengths.");
+  const SizesOfUnits sizes = sizes_in(all);
   std::size_t shown = 0;
   for (const auto& [fracture, through] : all) {
     if (shown++ == most_fractures) {
@@ -157,11 +189,15 @@ std::string fracture_section(const RunResults& results) {
       break;
     }
     std::vector<Panel> panels;
+    QuietValues quiet(sizes);
     for (const Grid::Values& sample : through.grids.back()->arrays) {
       if (sample.name == "fracture" || sample.place != Grid::Place::cell) continue;
-      for (int c = 0; c < std::min(sample.components, 2); ++c) panels.push_back(panel_along(through, sample, c));
+      for (int c = 0; c < std::min(sample.components, 2); ++c)
+        if (!quiet.takes(title_of(sample, c), column_name(sample.name).unit, values_of(through, sample, c)))
+          panels.push_back(panel_along(through, sample, c));
     }
-    text += "<h3>" + escaped_markup(names[static_cast<std::size_t>(fracture)]) + "</h3>\n" + html_panels(panels);
+    text += "<h3>" + escaped_markup(names[static_cast<std::size_t>(fracture)]) + "</h3>\n" + html_panels(panels) +
+            quiet.told();
   }
   return html_section("fractures", "Along the fractures", text);
 }

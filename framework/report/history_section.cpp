@@ -7,6 +7,7 @@
 #include "framework/picture/display_unit.hpp"
 #include "framework/picture/history_panel.hpp"
 #include "framework/report/html.hpp"
+#include "framework/report/quiet_values.hpp"
 #include "framework/report/sections.hpp"
 
 namespace sprekk {
@@ -38,15 +39,8 @@ struct Group {
   std::vector<HistoryCurve> curves;
 };
 
-double largest_of(const std::vector<double>& values) {
-  double largest = 0;
-  for (const double value : values)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
 void add(std::vector<Group>& groups, const std::string& unit, HistoryCurve curve) {
-  const double largest = largest_of(curve.values);
+  const double largest = largest_size(curve.values);
   for (Group& group : groups) {
     const double ratio = group.largest > 0 ? largest / group.largest : 0;
     const bool fits = unit.empty() || largest == 0 || (ratio < similar && ratio > 1 / similar);
@@ -57,6 +51,14 @@ void add(std::vector<Group>& groups, const std::string& unit, HistoryCurve curve
   }
   curve.style = line_style(0);
   groups.push_back({unit, largest, {std::move(curve)}});
+}
+
+/// Of all columns behind the first three, which are time, step and iterations.
+SizesOfUnits sizes_in(const CsvTable& history) {
+  SizesOfUnits sizes;
+  for (std::size_t i = 3; i < history.columns().size(); ++i)
+    sizes.add(column_name(history.columns()[i]).unit, history.numbers(static_cast<int>(i)));
+  return sizes;
 }
 
 std::vector<Panel> panels(const std::vector<Group>& groups, const CsvTable& events) {
@@ -93,21 +95,24 @@ std::string history_section(const RunResults& results) {
   const std::set<std::string> probes = probe_names(results);
   const std::vector<ThingColumn> things = thing_columns(history);
   std::vector<Group> probed, reported;
-  for (std::size_t i = 0; i < history.columns().size(); ++i) {  // the first three are time, step and iterations
+  QuietValues quiet_probes(sizes_in(history)), quiet(sizes_in(history));
+  for (std::size_t i = 3; i < history.columns().size(); ++i) {
     const ColumnName name = column_name(history.columns()[i]);
     const bool is_elsewhere = std::any_of(
         things.begin(), things.end(), [&](const ThingColumn& thing) { return thing.column == static_cast<int>(i); });
     const std::vector<double> values = history.numbers(static_cast<int>(i));
-    if (i < 3 || is_elsewhere || !has_numbers(values)) continue;
+    if (is_elsewhere || !has_numbers(values)) continue;
     const bool is_probe =
         probes.count(name.quantity) > 0 || probes.count(name.quantity.substr(0, name.quantity.rfind('.'))) > 0;
+    if ((is_probe ? quiet_probes : quiet).takes(name.quantity, name.unit, values)) continue;
     add(is_probe ? probed : reported, name.unit, {name.quantity, times, values, {}});
   }
-  std::string text;
-  if (!probed.empty()) text += "<h3>Probes</h3>\n" + html_panels(panels(probed, results.events));
-  if (!reported.empty())
-    text += "<h3>Reported by the components</h3>\n" + html_panels(panels(reported, results.events));
-  return html_section("history", "Against time", text);
+  const auto part = [&](const char* title, const std::vector<Group>& groups, const QuietValues& undrawn) {
+    const std::string content = html_panels(panels(groups, results.events)) + undrawn.told();
+    return groups.empty() && undrawn.told().empty() ? "" : "<h3>" + std::string(title) + "</h3>\n" + content;
+  };
+  return html_section("history", "Against time",
+                      part("Probes", probed, quiet_probes) + part("Reported by the components", reported, quiet));
 }
 
 std::string tip_section(const RunResults& results) {
@@ -122,14 +127,17 @@ std::string tip_section(const RunResults& results) {
     HistoryCurve events;
   };
   std::vector<TipGroup> groups;
+  QuietValues quiet(sizes_in(results.history));
   for (const ThingColumn& column : columns) {
+    const std::vector<double> values = results.history.numbers(column.column);
+    if (quiet.takes(column.thing + "." + column.quantity, column.unit, values)) continue;
     const bool is_alone = quantities[column.unit].size() == 1;
     const std::string title = is_alone ? column.quantity : column.thing;
     auto group = std::find_if(groups.begin(), groups.end(),
                               [&](const TipGroup& other) { return other.title == title && other.unit == column.unit; });
     if (group == groups.end()) group = groups.insert(groups.end(), {title, column.unit, {}, event_points()});
-    group->curves.push_back({is_alone ? column.thing : column.quantity, times, results.history.numbers(column.column),
-                             line_style(static_cast<int>(group->curves.size()))});
+    group->curves.push_back(
+        {is_alone ? column.thing : column.quantity, times, values, line_style(static_cast<int>(group->curves.size()))});
     add_event_points(group->events, results.events, column.thing, group->curves.back());
   }
   std::stable_sort(groups.begin(), groups.end(), [&](const TipGroup& a, const TipGroup& b) {
@@ -140,7 +148,7 @@ std::string tip_section(const RunResults& results) {
     if (!group.events.times.empty()) group.curves.push_back(std::move(group.events));
     drawn.push_back(history_panel(group.title, group.unit, group.curves));
   }
-  return html_section("tips", "By tip, side and other place", html_panels(drawn));
+  return html_section("tips", "By tip, side and other place", html_panels(drawn) + quiet.told());
 }
 
 }  // namespace sprekk

@@ -211,6 +211,7 @@ std::string map_json(const RunResults& results, std::size_t most_bytes) {
   for (const MapField& field : fields) ranges.push_back(add_field(field, grids, data["fields"]));
   for (const MapField& field : line_fields) line_ranges.push_back(add_field(field, lines, data["lineFields"]));
   const Grid* last_mesh = nullptr;
+  const DisplayUnit time_unit = display_unit("s", times.empty() ? 0 : times.back()->time);
   for (const RunResults::Written* written : times) {
     const Grid& grid = written->matrix;
     if (!last_mesh || last_mesh->points != grid.points || last_mesh->cells != grid.cells) {
@@ -219,7 +220,7 @@ std::string map_json(const RunResults& results, std::size_t most_bytes) {
     }
     Json values = Json::array();
     for (std::size_t i = 0; i < fields.size(); ++i) values.push_back(packed(values_of(grid, fields[i]), ranges[i]));
-    data["times"].push_back({{"text", display_text(written->time, "s")},
+    data["times"].push_back({{"text", display_text(written->time, time_unit)},
                              {"mesh", data["meshes"].size() - 1},
                              {"lines", lines_json(*written)},
                              {"values", values}});

@@ -32,7 +32,7 @@ std::string exit_text(const json& exit) {
 }
 
 std::string mesh_at_the_end(const RunResults& results, long changes) {
-  const std::string text = fmt::format("changed {} times", changes);
+  const std::string text = fmt::format("{} change{}", changes, changes == 1 ? "" : "s");
   if (results.written.empty()) return text;
   const RunResults::Written& last = results.written.back();
   return fmt::format("{} cells, {} fracture cells, ", last.matrix.cell_count(), last.fractures.cell_count()) + text;
@@ -56,7 +56,7 @@ std::string facts(const RunResults& results, const json& record) {
       {"steps", has_ended ? fmt::format("{} accepted, {} rejected, {} iterations", counters.value("steps accepted", 0L),
                                         counters.value("steps rejected", 0L), counters.value("iterations", 0L))
                           : fmt::format("{} accepted", times.size())});
-  if (!times.empty()) rows.push_back({"simulated until", duration_text(times.back())});
+  if (!times.empty()) rows.push_back({"simulated until", display_text(times.back(), "s")});
   std::string libraries;
   const json versions = part(program, "libraries");
   for (const auto& [name, version] : versions.items())

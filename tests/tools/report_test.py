@@ -112,7 +112,7 @@ class Report(unittest.TestCase):
         used.write_text(file.read_text(encoding="utf-8").replace("</body>", use), encoding="utf-8")
         page = self.opened(used)
         self.assertEqual(page.canvas["data-field"], "rock.displacement, x")
-        self.assertEqual(page.body["data-time"], "0 s")
+        self.assertEqual(page.body["data-time"], "0 h")
         self.assertRegex(page.body["data-value"], r"^x = [-0-9.]+ m, y = [-0-9.]+ m: rock\.displacement, x = [-0-9.]+ mm$")
 
     def test_fractures_are_coloured_and_named_on_the_map(self):

@@ -19,8 +19,8 @@ double half_length(double time) {
 
 TEST(Kgd, LengthPressureAndOpeningFollowTheClosedForm) {
   EXPECT_NEAR(half_length(100), 20.123, 0.001);
-  // The fracture grows by steps of 0.25 m, each of which lowers K_I by 0.25 m/l times 3/2. So it begins with 15 m,
-  // where that is 2.5 %.
+  // The error of K_I with cells of 0.5 m on a fracture of 15 m, in this box: 0.8 % in the pressure, a third of that in
+  // the length at a given volume.
   constexpr double start = 15;
   SceneRun run("verification/kgd.yaml", {{"geometry.fractures.main.points", "[[0 m, 0 m], [15 m, 0 m]]"}});
   double first = 0;
@@ -30,14 +30,14 @@ TEST(Kgd, LengthPressureAndOpeningFollowTheClosedForm) {
     const double pressure =
         grown > 0 ? toughness / std::sqrt(M_PI * expected)
                   : plane_modulus * rate * run.time() / (2 * M_PI * start * start);  // not yet at the toughness
-    EXPECT_NEAR((start + grown) / expected, 1, 0.03) << run.time();
-    EXPECT_NEAR(run.quantity("pressure") / pressure, 1, 0.03) << run.time();
-    EXPECT_NEAR(run.quantity("opening.n") / (4 * pressure * expected / plane_modulus), 1, 0.03) << run.time();
+    EXPECT_NEAR((start + grown) / expected, 1, 0.004) << run.time();
+    EXPECT_NEAR(run.quantity("pressure") / pressure, 1, 0.01) << run.time();
+    EXPECT_NEAR(run.quantity("opening.n") / (4 * pressure * expected / plane_modulus), 1, 0.004) << run.time();
     EXPECT_NEAR(run.quantity("fluid_balance_error"), 0, 1e-9 * run.quantity("fluid_injected"));
     if (grown > 0 && first == 0) first = run.time();
   });
   EXPECT_GT(run.mesh_changes(), 4);
-  EXPECT_NEAR(first / 64.34, 1, 0.03);
+  EXPECT_NEAR(first / 64.34, 1, 0.02);
   // The path is straight, although nothing prescribes its direction.
   for (const FractureCell& cell : run.mesh().fracture_cells)
     EXPECT_NEAR(cell.center[1], 0, cell.grown ? 0.01 * (cell.center[0] - start) : 1e-12);
@@ -58,6 +58,7 @@ TEST_P(KgdByTheCubicLaw, OpensIntoCellsThatAreClosed) {
                                          {"components.conduit.transmissivity_value", "null"},
                                          {"components.conduit.viscosity", "1e-6 Pa*s"},
                                          {"components.conduit.grown.aperture", GetParam()},
+                                         {"schedule.1.update", "after_step"},
                                          {"time.step", "2 s"}});
   run.run_until(20);  // the fluid loses pressure along the fracture while it hardly is open
   double first = 0, last = 0, longest = 0;
@@ -104,10 +105,8 @@ TEST_P(KgdVolume, IsWhatHasBeenInjected) {
                                     {"components.tips.toughness", "5.6 MPa*m^0.5"},
                                     {"components.tips.growth.increment", "0.5 m"},
                                     {"time.step", "0.15 s"}};
+  settings.push_back({"schedule.1.update", GetParam()});
   if (within) {
-    settings.push_back(
-        {"schedule",
-         "[{solve: [rock, conduit, contact]}, {grow: tips, settle: [rock, contact], update: within_step}]"});
     settings.push_back(
         {"couplers",
          "[{type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, conduit]}, "

@@ -67,6 +67,11 @@ schedule:
     settle: [rock, contact]
     update: within_step
 """
+AFTER_STEP = """
+schedule:
+  - solve: [rock, conduit, contact]
+  - {grow: tips, settle: [rock, contact], update: after_step}
+"""
 
 
 def read(name):
@@ -114,7 +119,7 @@ def run(program, number, cells, update, more, scenes, folder, size=SIZE):
     text = SCENE.format(start=FIRST * size, far=4 * cells * size, growth=GROWTH, box=BOX * cells * size, size=size, viscosity=VISCOSITY, half_rate=RATE / 2,
                         toughness=toughness_of(number), increment=size, end=end, step=end / 60)
     overlay = Path(folder) / "kgd.yaml"
-    overlay.write_text(text + (WITHIN_STEP if update == "within_step" else ""))
+    overlay.write_text(text + (WITHIN_STEP if update == "within_step" else AFTER_STEP))
     command = [program, "run", str(ROOT / "configs/verification/kgd.yaml"), str(overlay), *scenes, "-q", "-o", folder + "/run",
                "--set", "output.fields=false"]
     for setting in more:

@@ -40,6 +40,7 @@ TEST(DisplayText, has_few_digits_and_a_unit) {
   EXPECT_EQ(display_text(-0.00101470096318054, "m"), "-1.015 mm");
   EXPECT_EQ(display_text(29, ""), "29");
   EXPECT_EQ(display_text(2.5e-16, "m^2"), "2.5·10⁻¹⁶ m²");
+  EXPECT_EQ(display_text(1800, display_unit("s", 7200)), "0.5 h");
   EXPECT_EQ(display_text(0, "Pa"), "0 Pa");
   EXPECT_EQ(display_text(std::numeric_limits<double>::quiet_NaN(), "Pa"), "–");
 }

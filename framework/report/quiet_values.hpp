@@ -1,0 +1,40 @@
+// Values that no curve has to be drawn for: a sentence names them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sprekk {
+
+/// The largest absolute value of each unit. Values that are not finite do not count.
+class SizesOfUnits {
+ public:
+  void add(const std::string& unit, const std::vector<double>& values);
+  /// Whether values are so far below others of their unit that they may be round-off. Never without a unit, nor if all
+  /// are zero.
+  bool are_far_below(const std::string& unit, const std::vector<double>& values) const;
+
+ private:
+  std::map<std::string, double> largest_;
+};
+
+/// The largest absolute value that is finite; 0 without any.
+double largest_size(const std::vector<double>& values);
+
+/// Collects what is not drawn.
+class QuietValues {
+ public:
+  /// `sizes`: of all values beside which these stand.
+  explicit QuietValues(SizesOfUnits sizes) : sizes_(std::move(sizes)) {}
+  /// Whether values in time need no curve: they do not change, or are far below others. They are told then.
+  bool takes(const std::string& name, const std::string& unit, const std::vector<double>& values);
+  /// HTML paragraphs; "" where all is drawn.
+  std::string told() const;
+
+ private:
+  SizesOfUnits sizes_;
+  std::vector<std::string> constant_, far_below_;
+};
+
+}  // namespace sprekk
