@@ -22,6 +22,7 @@ std::string map_section(const RunResults& results) {
       "<label>fractures <select id=\"map-line-field\"><option value=\"-1\">black</option>{}</select></label>\n"
       "<label>time <input type=\"range\" id=\"map-time\" min=\"0\" step=\"1\"> <output "
       "id=\"map-time-text\"></output></label>\n"
+      "<button type=\"button\" id=\"map-play\" aria-label=\"all times as a film\">▶</button>\n"
       "<label>colours <select id=\"map-scale\"><option value=\"all\">the same at all times</option>"
       "<option value=\"one\">of this time</option></select></label>\n"
       "<span class=\"buttons\"><button type=\"button\" id=\"map-whole\">whole</button>"

@@ -387,6 +387,26 @@
         `${where}${field.label} = ${value.toPrecision(4)} ${field.unit}${fractureText(x, y)}`;
   });
 
+  let film = 0;
+  const stop = () => {
+    clearInterval(film);
+    film = 0;
+    element('map-play').textContent = '▶';
+  };
+  element('map-play').addEventListener('click', () => {
+    if (film) return stop();
+    const last = data.times.length - 1;
+    if (state.time === last) state.time = 0;
+    element('map-play').textContent = '■';
+    draw();
+    film = setInterval(() => {
+      if (state.time < last) ++state.time;
+      draw();
+      if (state.time === last) stop();
+    }, 500);
+  });
+  element('map-play').hidden = data.times.length < 2;
+
   element('map-time').max = data.times.length - 1;
   element('map-time').parentElement.hidden = data.times.length < 2;
   element('map-lines').hidden = !data.times.some((time) => time.lines.length);
@@ -397,7 +417,7 @@
     setFrame();
     draw();
   });
-  element('map-time').addEventListener('input', (event) => { state.time = +event.target.value; draw(); });
+  element('map-time').addEventListener('input', (event) => { stop(); state.time = +event.target.value; draw(); });
   element('map-scale').addEventListener('change', (event) => { state.sameScale = event.target.value === 'all'; draw(); });
   element('map-whole').addEventListener('click', () => { state.box = whole.slice(); draw(); });
   element('map-lines').addEventListener('click', () => { state.box = lineBox(); draw(); });

@@ -115,6 +115,26 @@ class Report(unittest.TestCase):
         self.assertEqual(page.body["data-time"], "0 h")
         self.assertRegex(page.body["data-value"], r"^x = [-0-9.]+ m, y = [-0-9.]+ m: rock\.displacement, x = [-0-9.]+ mm$")
 
+    def test_all_times_are_a_film(self):
+        file = self.report("tutorial/first_scene.yaml", "mesh={size: 1 m, fracture_size: 0.3 m}")
+        use = """<script>
+          const seen = [], play = document.getElementById('map-play'), time = document.getElementById('map-time-text');
+          const look = () => {
+            if (seen[seen.length - 1] !== time.textContent) seen.push(time.textContent);
+            document.body.dataset.seen = seen.join(', ');
+          };
+          play.click();
+          document.body.dataset.button = play.textContent;
+          look();
+          setInterval(look, 100);
+          setTimeout(() => { document.body.dataset.after = play.textContent; }, 4000);
+        </script></body>"""
+        used = self.folder / "used.html"
+        used.write_text(file.read_text(encoding="utf-8").replace("</body>", use), encoding="utf-8")
+        page = self.opened(used)
+        self.assertEqual((page.body["data-button"], page.body["data-seen"], page.body["data-after"]),
+                         ("■", "0 h, 12 h, 24 h, 36 h, 48 h", "▶"))
+
     def test_fractures_are_coloured_and_named_on_the_map(self):
         file = self.report("tutorial/first_scene.yaml", "mesh={size: 1 m, fracture_size: 0.3 m}")
         use = """<script>
