@@ -12,6 +12,7 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/property.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
@@ -51,7 +52,8 @@ struct CarterOptions {
     spec.quantity(
         "exposed_since", exposed_since,
         {.unit = "s",
-         .doc = "t_0 of walls that have fluid at the start of the run, not after it; without it, the start."});
+         .doc = "t_0 of walls that have fluid at the start of the run, not after it; without it, the start. Not read "
+                "where walls come from another run, `start: from`."});
     return spec;
   }
 };
@@ -59,7 +61,7 @@ struct CarterOptions {
 /// Takes from the balance of each fracture cell what has left through both of its walls in the step, exactly for the
 /// mean time of exposure of the cell. What of a cell becomes wet in the step (a tip has come by, or fluid has filled
 /// it) does so evenly over the step. The leak-off does not depend on the pressure, so it has no derivatives.
-class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
+class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, public KeepsTotals {
  public:
   CarterLeakOff(const CouplerContext& context, const CarterOptions& options)
       : Coupler(context.name),
@@ -67,14 +69,15 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
         origin_(context.origin),
         fluid_(context.the<FractureFluid>()),
         rock_left_out_(context.left_out<MatrixFluid>()),
-        exposed_since_(options.exposed_since.value_or(context.start_time)),
+        is_age_given_(options.exposed_since.has_value()),
+        age_at_start_(context.start_time - options.exposed_since.value_or(context.start_time)),
         coefficient_(options.coefficient, fracture_cell_places(mesh_), context.start_time),
         spurt_(options.spurt, fracture_cell_places(mesh_), context.start_time),
         wet_(add(context, "wet", size_unit, "Size of the part that fluid has come to")),
-        wet_time_(add(context, "wet_time", std::string(size_unit) + "*s",
-                      "The same times the mean time at which it came there")),
+        wet_age_(add(context, "wet_age", std::string(size_unit) + "*s",
+                     "The same times the mean time for which it has been there")),
         leaked_(add(context, "leaked", volume_unit, "Fluid that has left through both walls since the start")) {
-    if (exposed_since_ > context.start_time)
+    if (age_at_start_ < 0)
       throw InputError(origin_, "'exposed_since' is after the start of the run",
                        "walls that have fluid at the start have had it by then", "give a time up to time.start");
     refuse_carried<FractureTemperature>(context, carried_heat);
@@ -82,13 +85,20 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
     begin();
   }
 
-  void count_amounts_from_here(const SettledFields&) override { begin(); }
+  void count_amounts_from_here(const SettledFields&) override {
+    if (!continues_) begin();
+  }
+  /// Walls whose age is not that of the start are of another run, and keep it.
+  void begin_totals() override {
+    continues_ = continues_ || wet_age_.accepted() != age_at_start_ * wet_.accepted();
+    leaked_.set_both(Vector::Zero(leaked_.size()));
+  }
 
   /// Cells that have grown become wet in the first step in which they are in the mesh.
   void carry_over(const Part&, const MeshChange& change) override {
     if (change.is_at_start) return;
     const Vector covered = covered_parts(change, mesh_);
-    for (Field* amount : {&wet_, &wet_time_, &leaked_}) {
+    for (Field* amount : {&wet_, &wet_age_, &leaked_}) {
       Vector values = amount->accepted();
       for (int i = 0; i < values.size(); ++i)
         if (covered[i] == 0) values[i] = 0;
@@ -115,7 +125,7 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
     if (std::ranges::count(solved, &fluid_.pressure()) == 0) return;
     const Vector fresh = wet_at_end_ - wet_.accepted();
     wet_.set(wet_at_end_);
-    wet_time_.set(wet_time_.accepted() + (step.end - step.dt / 2) * fresh);
+    wet_age_.set(wet_age_.accepted() + step.dt * wet_.accepted() + step.dt / 2 * fresh);
     leaked_.set(leaked_.accepted() + leaking_in(step));
   }
 
@@ -130,6 +140,10 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
   }
 
   void note_input(Notes& notes) const override {
+    if (continues_ && is_age_given_)
+      notes.add(name() + ": exposed_since",
+                "'exposed_since' is not read (walls have the age that they have in the run from which this one starts) "
+                "remove it");
     if (!rock_left_out_.empty())
       notes.add(name() + " beside " + rock_left_out_,
                 fmt::format("what leaves the fractures by '{}' does not come to the fluid of '{}' (Carter's law stands "
@@ -147,10 +161,10 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
                            "_advection, or remove the " + carried.quantity);
   }
 
-  /// All fluid of the present state has been there since then.
+  /// All fluid of the present state has been there for as long.
   void begin() {
     wet_.set_both(wet_sizes());
-    wet_time_.set_both(exposed_since_ * wet_.now());
+    wet_age_.set_both(age_at_start_ * wet_.now());
     leaked_.set_both(Vector::Zero(leaked_.size()));
   }
 
@@ -171,10 +185,9 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
     Vector leaking(mesh_.fracture_cell_count());
     for (int i = 0; i < leaking.size(); ++i) {
       const double wet = wet_.accepted()[i], fresh = wet_at_end_[i] - wet;
-      const double since = wet > 0 ? wet_time_.accepted()[i] / wet : step.start;
-      const auto root = [since](double time) { return std::sqrt(std::max(0.0, time - since)); };
+      const double age = wet > 0 ? wet_age_.accepted()[i] / wet : 0;
       // The mean of sqrt(t - t_0) over arrivals in the step is 2/3 sqrt(dt).
-      const double roots = wet * (root(step.end) - root(step.start)) + fresh * (2.0 / 3) * std::sqrt(step.dt);
+      const double roots = wet * (std::sqrt(age + step.dt) - std::sqrt(age)) + fresh * (2.0 / 3) * std::sqrt(step.dt);
       leaking[i] = 2 * (2 * coefficient_[i] * roots + spurt_[i] * fresh);
     }
     return leaking;
@@ -183,10 +196,11 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts {
   const Mesh& mesh_;
   Origin origin_;
   FractureFluid& fluid_;
-  std::string rock_left_out_;  ///< a flow in the rock that the coupler does not stand between
-  double exposed_since_;       ///< s, of what has fluid at the start
+  std::string rock_left_out_;              ///< a flow in the rock that the coupler does not stand between
+  bool is_age_given_, continues_ = false;  ///< continues_: walls are those of another run
+  double age_at_start_;                    ///< s, of what has fluid at the start
   Property coefficient_, spurt_;
-  Field &wet_, &wet_time_, &leaked_;
+  Field &wet_, &wet_age_, &leaked_;
   Vector wet_at_end_;  ///< of the step
 };
 

@@ -77,6 +77,40 @@ class CarterLeakOff(SceneRuns):
         self.assertLess(max(abs(np.array([*others, perturbed]) / one - 1)), 1e-6)
         self.assertLess(abs(mirrored / one - 1), 1e-3)  # another mesh
 
+    def test_a_run_that_continues_another_one_keeps_the_age_of_walls(self):
+        # Two fractures of which one leaks faster; 400 s and then 600 s, on any clock, lose what 1000 s lose.
+        scene = self.write("""
+geometry:
+  box: {x: [0 m, 10 m], y: [0 m, 6 m]}
+  fractures: {f: {points: [[2 m, 2 m], [6 m, 4 m]]}, g: {points: [[7 m, 1 m], [8 m, 4 m]]}}
+mesh: {size: 2 m, fracture_size: 0.7 m}
+components:
+  conduit: {type: fracture_flow/tpfa, viscosity: 1 mPa*s, fluid_compressibility: 1e-6 1/Pa, initial_aperture: 0.3 mm, initial_pressure: 1 MPa,
+            injection: {a: {fracture: f, at: [4 m, 3 m], rate: 4e-6 m^2/s}}}
+couplers:
+  - {type: carter_leak_off, between: [conduit], leak_off_coefficient: {fractures: {f: 2e-6 m/s^0.5, g: 5e-6 m/s^0.5}}, exposed_since: -50 s}
+schedule: [{solve: conduit}]
+time: {end: 1000 s, step: 100 s}
+output: {fields: false}
+""")
+        lengths = math.hypot(4, 2), math.hypot(1, 3)
+
+        def leaked(time):
+            return 4 * (2e-6 * lengths[0] + 5e-6 * lengths[1]) * (math.sqrt(time + 50) - math.sqrt(50))
+
+        def last(run):
+            return run["carter_leak_off.leaked[m^2]"][-1], run["conduit.a.pressure[Pa]"][-1]
+
+        whole, first = self.run_scene(scene), self.run_scene(scene, "time.end=400 s")
+        self.assertLess(abs(last(whole)[0] / leaked(1000) - 1), 1e-12)
+        for start in (400, 0, -500, 1e6):
+            second = self.run_scene(scene, f"start={{from: '{first.folder}'}}", f"time.start={start} s", f"time.end={start + 600} s",
+                                    "couplers.0.exposed_since=null" if start == -500 else "time.step=100 s")
+            self.assertLess(abs(last(second)[0] / (leaked(1000) - leaked(400)) - 1), 1e-11, start)
+            self.assertLess(abs(last(second)[1] / last(whole)[1] - 1), 1e-9, start)
+            self.assertLess(abs(second["fluid_balance_error[m^2]"][-1]), 1e-12 * second["fluid_injected[m^2]"][-1], start)
+            self.assertEqual(any("'exposed_since' is not read" in note for note in second.notes), start in (0, 1e6), start)
+
     def test_growth_where_toughness_rules(self):
         ends = []
         for spurt in (0.0, 1e-4):
