@@ -221,6 +221,10 @@ void FrictionalContact::restore(const std::map<std::string, Vector>& state) {
   if (rate_and_state_) rate_and_state_->restore(name(), state);
 }
 
+void FrictionalContact::begin_totals() {
+  if (rate_and_state_) rate_and_state_->begin_events_anew(slipping_walls());
+}
+
 double FrictionalContact::longest_step(double) const {
   return rate_and_state_ ? rate_and_state_->longest_step() : std::numeric_limits<double>::infinity();
 }

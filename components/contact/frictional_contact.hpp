@@ -17,6 +17,7 @@
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/heeds_stages.hpp"
 #include "framework/assembly/keeps_state.hpp"
+#include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/notes_start.hpp"
 #include "framework/assembly/piecewise_smooth.hpp"
@@ -70,6 +71,7 @@ struct Options;
 class FrictionalContact : public Component,
                           public PiecewiseSmooth,
                           public KeepsState,
+                          public KeepsTotals,
                           public FollowsMesh,
                           public FractureContact,
                           public AcceptsFriction,
@@ -126,6 +128,7 @@ class FrictionalContact : public Component,
   void accepted() override;
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
+  void begin_totals() override;
   /// Walls that lose strength, and have slipped or opened in this step (runaway.cpp).
   Softened softened() const override;
   /// The slip of cells that slip, and the opening of cells that part against their tensile strength.

@@ -52,6 +52,7 @@ class RateAndStateWalls {
   std::optional<StepTooLong> too_long(const Vector& slip, const StepTime& step) const;
 
   void accepted(const SlippingWalls& walls);
+  void begin_events_anew(const SlippingWalls& walls) { events_.begin_anew(walls.slip); }
   void report(const std::string& name, const SlippingWalls& walls, std::vector<Quantity>& quantities) const;
   /// The event that ends with this step.
   std::vector<Event> events(const std::string& name, const SlippingWalls& walls) const;

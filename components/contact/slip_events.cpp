@@ -64,6 +64,12 @@ void SlipEvents::accept(const Step& step) {
   peak_rate_.set_both(std::move(peaks));
 }
 
+void SlipEvents::begin_anew(const Vector& slip) {
+  latest_ = {};
+  slip_before_.set_both(slip);
+  peak_rate_.set_both(Vector::Zero(peak_rate_.size()));
+}
+
 void SlipEvents::report(const std::string& name, const Event& event, std::vector<Quantity>& quantities) {
   quantities.push_back({name + ".events", "1", event.count});
   quantities.push_back({name + ".event_begin", "s", event.begin});

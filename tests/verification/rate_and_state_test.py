@@ -58,6 +58,15 @@ class RateAndState(SceneRuns):
             for i in range(3):
                 self.assertAlmostEqual(found[i, 1] / known[i, 1], 1, delta=peak)
 
+    def test_a_run_that_continues_another_one_counts_its_own_events(self):
+        # The second event of the whole run is the first one of a run that starts, with a clock of its own, from 7e6 s.
+        whole, first = self.run_scene(SLIDER, "time.end=11e6 s"), self.run_scene(SLIDER, "time.end=7e6 s")
+        second = self.run_scene(SLIDER, f"start={{from: '{first.folder}'}}", "time.end=4e6 s", *pulled("1e-9*(t + 7e6)"))
+        self.assertEqual([run["contact.events[1]"][-1] for run in (whole, first, second)], [2, 1, 1])
+        self.assertEqual(second["contact.events[1]"][0], 0)
+        self.assertAlmostEqual((second["contact.event_begin[s]"][-1] + 7e6) / whole["contact.event_begin[s]"][-1], 1, delta=1e-5)
+        self.assert_same(second, whole, 1e-3, ("contact.event_moment[N]", "contact.event_peak_slip_rate[m/s]"))
+
     def test_an_event_is_recorded_with_its_moment_and_length(self):
         run = self.run_scene(SLIDER, "time.end=7e6 s", PROBE)
         slip = run["contact.largest_slip_rate[m/s]"] > 1e-3
