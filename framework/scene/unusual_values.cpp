@@ -15,6 +15,7 @@
 #include "framework/config/table.hpp"
 #include "framework/config/unit.hpp"
 #include "framework/config/units.hpp"
+#include "framework/scene/fracture_set.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk {
@@ -73,11 +74,6 @@ struct Extent {
     return part;
   }
 };
-
-/// Whether a key of a map by name, a name or "joints_*", stands for a name.
-bool stands_for(const std::string& key, const std::string& name) {
-  return key == name || (key.size() > 1 && key.back() == '*' && name.starts_with(key.substr(0, key.size() - 1)));
-}
 
 /// Collects the values of properties from the tree of a scene that has been read, and so is right.
 class Properties {
