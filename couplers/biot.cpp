@@ -37,7 +37,7 @@ namespace {
 ///
 /// The "old" volume is the volume that the fluid balance has counted last (`counted_volume`). So a split scheme that is
 /// not iterated counts every change of volume once, if late. One that is iterated counts the volume with which each
-/// balance holds: what passes leave of it is counted in the next step.
+/// balance holds: what remains of it after the last pass is counted in the next step.
 ///
 /// With `one_way` the first of these terms is left out, and nothing of the rock enters the balance of the fluid.
 ///
