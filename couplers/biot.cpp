@@ -37,7 +37,7 @@ namespace {
 ///
 /// The "old" volume is the volume that the fluid balance has counted last (`counted_volume`). So a split scheme that is
 /// not iterated counts every change of volume once, if late. One that is iterated counts the volume with which each
-/// balance holds: what passes leave of it is counted in the next step.
+/// balance holds: what remains of it after the last pass is counted in the next step.
 ///
 /// With `one_way` the first of these terms is left out, and nothing of the rock enters the balance of the fluid.
 ///
@@ -272,8 +272,9 @@ class Biot : public Coupler,
  private:
   static constexpr const char* undrained = "undrained";  ///< the name of a stabilization
 
-  /// The residuals of the fluid balances of cells whose volume is counted, right on cells of this process. Their sum is
-  /// that without the fluxes between cells, whose round-off is no fluid.
+  /// The residuals of the fluid balances of the cells in which the rock's change of volume is counted; valid in cells
+  /// of this process. They are adjusted so that their sum is that of the balances without fluxes between cells:
+  /// round-off of these fluxes is no fluid.
   Vector rest_of_balances(const Assembly& assembly, int unknown) const {
     const Vector &residual = assembly.residual(unknown), &in_sum = assembly.balances().residual(unknown);
     Vector rest = Vector::Zero(mesh_.cell_count()), sums = Vector::Zero(2);

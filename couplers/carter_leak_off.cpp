@@ -59,8 +59,9 @@ struct CarterOptions {
 };
 
 /// Takes from the balance of each fracture cell what has left through both of its walls in the step, exactly for the
-/// mean time of exposure of the cell. What of a cell becomes wet in the step (a tip has come by, or fluid has filled
-/// it) does so evenly over the step. The leak-off does not depend on the pressure, so it has no derivatives.
+/// mean time of exposure of the cell. The part of a cell that becomes wet in the step (a tip has passed, or fluid has
+/// filled it) does so at a constant rate over the step. The leak-off does not depend on the pressure, so it has no
+/// derivatives.
 class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, public KeepsTotals {
  public:
   CarterLeakOff(const CouplerContext& context, const CarterOptions& options)

@@ -126,8 +126,8 @@ class Exchange : public Coupler {
   }
 
  private:
-  /// Looks for the fracture cell in which two-point fluxes are not exact and that conducts most along the fracture,
-  /// over what a layer of rock as thick as the cell is long conducts. `in_front`: of each wall, W/(m^2 K).
+  /// Looks for the fracture cell that conducts most along the fracture, relative to a layer of rock as thick as the
+  /// cell is long, among the cells in which two-point fluxes are not exact. `in_front`: of each wall, W/(m^2 K).
   void find_conduction_along(const Vector& in_front) {
     along_.clear();
     const Vector* thickness = fracture_.thickness();

@@ -22,7 +22,7 @@ class FoundModulus {
   /// The rock has been solved for with this pressure (Pa); `stored`: alpha times the volume of each cell (m^2); `least`
   /// and `most`: both bounds of b V (m^2/Pa). All processes need all values.
   void rock_is_solved(const Vector& pressure, const Vector& stored, const Vector& least, const Vector& most) {
-    constexpr int looked_at = 2;        // pairs of passes; later ones change little but round-off
+    constexpr int looked_at = 2;        // pairs of passes; in later ones the change is little more than round-off
     constexpr double round_off = 1e-6;  // of the largest pressure
     if (passes_ > 0 && passes_ <= looked_at) {
       const Vector dp = pressure - pressure_;

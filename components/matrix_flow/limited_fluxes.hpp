@@ -13,12 +13,11 @@ struct LimitedFluxes {
   Vector value;                ///< m^2/s, one a face
   Vector by_first, by_second;  ///< derivatives
 };
-///
-/// `rounding` (m^2/s) makes it a smooth function, for Newton's method alone: with x+ = (x + sqrt(x² + rounding²))/2 the
-/// mean of both a+ and b+ less that of both (−a)+ and (−b)+. 0 is the function itself, infinity (a + b)/2.
-/// `with_secants`: the function itself, and in place of its derivatives the weights of the convex mean that it is,
-/// |b|/(|a| + |b|) and |a|/(|a| + |b|). These do not jump where a flux changes its sign.
+/// Instead of a `rounding`: the exact function, and in place of its derivatives the weights with which it is a mean of
+/// a and b, |b|/(|a| + |b|) and |a|/(|a| + |b|). These do not jump where a flux changes its sign.
 inline constexpr double with_secants = -1;
+/// `rounding` (m^2/s) makes the function smooth, for Newton's method alone: with x+ = (x + sqrt(x² + rounding²))/2 it
+/// is the harmonic mean of a+ and b+ less that of (−a)+ and (−b)+. With 0 it is exact, with infinity it is (a + b)/2.
 LimitedFluxes limit(const Vector& first, const Vector& second, double rounding = 0);
 
 }  // namespace sprekk::matrix_flow

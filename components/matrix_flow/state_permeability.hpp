@@ -35,8 +35,8 @@ class StatePermeability {
   std::size_t variable_count() const { return named_.size(); }   ///< that any formula names
   /// The derivatives of `values` by the k-th of these variables.
   const std::vector<Tensor>& by(std::size_t k) const { return by_[k]; }
-  /// Derivatives of the k-th variable by a field, cells × values of the field, for all fields behind it; right in the
-  /// rows of cells that the process owns.
+  /// The derivatives of the k-th variable by each field that it depends on: cells × values of the field. Only rows of
+  /// cells that the process owns are valid.
   std::vector<std::pair<const Field*, SparseMatrix>> derivatives_of_variable(std::size_t k) const;
 
  private:

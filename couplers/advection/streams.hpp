@@ -49,11 +49,11 @@ struct StreamSources {
   const FractureCarried* in_fractures = nullptr;
   const WellPressures* wells = nullptr;
   const Field* rock_pressure = nullptr;      ///< of the flow in the matrix
-  const Field* fracture_pressure = nullptr;  ///< and in the fractures
+  const Field* fracture_pressure = nullptr;  ///< of the flow in the fractures
   /// The value of entering fluid for which the scene gives none; without it, such fluid has the value of the cell that
   /// it enters.
   std::optional<double> unknown = {};
-  /// The value of fluid from a named place, by name.
+  /// The values of fluid that enters at named places (of injection, wells), by name.
   std::vector<std::pair<std::string, double>> injected = {};
 
   std::optional<double> injected_value(const std::string& name) const {

@@ -7,8 +7,8 @@ namespace sprekk::couplers {
 
 namespace {
 
-/// Part of the distances of cells: values of cells that lie within this along a direction do not determine the gradient
-/// along it. Round-off of a moment.
+/// A direction in which the second moment of the cell centres is below this part of the squared distance from the node
+/// (round-off) does not determine a gradient.
 constexpr double round_off = 1e-12;
 
 }  // namespace

@@ -109,8 +109,8 @@ PressureNearTips::PressureNearTips(const Mesh& mesh) : mesh_(mesh), region_of_ce
 /// The nodes that divide the edges of a region's cells.
 class PressureNearTips::Region::EdgeNodes {
  public:
-  /// An edge becomes finer towards a tip at one of its ends. A triangle with two tips has no first corner at which it
-  /// could; then neither of them is one.
+  /// An edge becomes finer towards a tip at one of its ends. A triangle can become finer towards one corner only: tips
+  /// in a triangle with two of them do not count.
   EdgeNodes(Region& region, const std::set<int>& tips) : region_(region), fine_(tips) {
     const auto tip_count = [&](int cell) {
       return std::ranges::count_if(corners(cell), [&](int node) { return is_fine(node); });

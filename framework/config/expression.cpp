@@ -210,8 +210,9 @@ struct Resized {
 LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, const Origin& where,
                         const StateVariables& state) {
   const bool is_length = dimension == parse_unit("m").dimension;
-  // Sizes of which no two products of powers are equal, near 1 so that conditions in the expression still hold. Angles
-  // count as numbers unless the dimension has one, and so do lengths where it is a length.
+  // Sizes of units of which no two products of powers are equal; near 1, so that conditions in the expression keep
+  // their outcomes. An angle is a number (its size is 1) unless `dimension` contains one, and so is a length if
+  // `dimension` is a length and the expression names no state.
   UnitSizes sizes;
   const double squares[] = {2, 3, 5, 7, 11};
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::exp(1e-2 * std::sqrt(squares[i]));

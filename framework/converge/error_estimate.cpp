@@ -36,8 +36,8 @@ ParameterError parameter_error(double coarse, double middle, double fine, double
   } else {
     double error = std::max(std::abs(first), std::abs(second));
     if (first * second > 0) {
-      // In one direction the value is still on its way; an order below the least one is chance, of which one is
-      // assumed, as uncertain as an observed one.
+      // The value still changes in one direction. An observed order below least_order is chance: an order of one is
+      // assumed, with the safety factor of an observed one.
       error = safety * std::abs(second);
     } else if (std::abs(second) < std::abs(first)) {
       // The sizes shrink with an order of two at most, as above: a smaller last one is chance.

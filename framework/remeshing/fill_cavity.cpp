@@ -37,8 +37,8 @@ class Sizes {
     }
     if (sources_[0].empty()) return upper;
     const double sum = nearest[0] + nearest[1];
-    // The slope with which sizes reach the length of the rim's edges at the rim, up to the slope that mesh_region() can
-    // follow.
+    // At least linear between the two nearest edges, so that sizes reach the length of the rim's edges at the rim
+    // (mesh_region() follows slopes up to a half).
     const double straight = sum > 0 ? (size[0] * nearest[1] + size[1] * nearest[0]) / sum : 0;
     return std::max(upper, straight);
   }

@@ -22,7 +22,7 @@ const std::string rows_of_tables = "rows of tables";  // in a checkpoint: of tab
 constexpr std::array<const char*, 3> table_files = {"history.csv", "coupling.csv",
                                                     "events.csv"};  // by RunOutput::Table
 
-/// Only the first process touches files; all of them throw when it does.
+/// Does the work, on files, on the first process only. If it throws, all processes throw. Collective.
 template <class Work>
 void on_first_process(const Work& work) {
   std::exception_ptr failure;

@@ -64,8 +64,9 @@ class IterateStep : public ScheduleStep, public KeepsState {
  private:
   class Passes;  // iterate_passes.cpp
   StepStatus make_passes(const StepTime& step);
-  /// Counts exchanged amounts anew with the final fields of all solves: each solve has counted them with the values
-  /// that the other fields had at its turn. What passes have left of balances is counted later (CountsLater).
+  /// Counts exchanged amounts anew with the final values of all fields: each solve has counted them with the values
+  /// that the other fields had at its turn. What remains of a balance after the last pass is carried into the next
+  /// step (CountsLater).
   StepStatus converged(const StepTime& step, const StepStatus& status);
   ResidualCheck coupled_residual(const StepTime& step) const;
   void choose_scales();

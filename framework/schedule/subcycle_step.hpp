@@ -64,8 +64,8 @@ class SubcycleStep : public ScheduleStep {
     bool is_linear;  ///< otherwise they are held at the end
     Values from, to;
   };
-  /// Whether waiting fields may have jumped at the start of the step: there data jump, or the run begins, with loads
-  /// that are there at once. What lies between their values at both ends then says nothing of their course.
+  /// Whether waiting fields may have jumped at the start of the step, because data jump there, or because the run
+  /// begins and its loads act at once. Then they do not vary linearly between their values at both ends.
   bool begins_with_jump(const StepTime& step);
   std::vector<Piece> pieces(const StepTime& step) const;
   StepStatus take(const std::vector<Piece>& pieces, const Course& course);

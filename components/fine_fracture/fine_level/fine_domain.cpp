@@ -148,7 +148,7 @@ Point snapped(const Rectangle& box, Point x) {
 /// A place from which the outline keeps away.
 struct Avoided {
   Point position;  ///< m
-  double share;    ///< of the distance that it keeps from a tip
+  double share;    ///< the distance that the outline keeps from here, over that which it keeps from a tip
 };
 
 /// All ends, junctions and bends. Displacements of the coarse level vary within a cell on both sides of a sharp kink;

@@ -38,8 +38,8 @@ class FrontJump {
   /// step.
   void stop(int tip);
   void learn(const std::vector<FrontState>& states);
-  /// The last trial could not be solved, or laid: it is made shorter, and turns less. When it is short already the jump
-  /// ends at the last trial that was solved; false where there is none.
+  /// To be called when the last trial could not be solved, or its path not laid. Halves its way from the trial before.
+  /// If what remains is too short, the jump ends at the last trial that was solved; returns false if there is none.
   bool retreat();
   /// too_far: a tip is still above its toughness where it can advance no further. The last trial holds all the same.
   Front::Verdict verdict() const { return verdict_; }

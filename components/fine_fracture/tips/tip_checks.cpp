@@ -16,8 +16,8 @@ void Tips::require_loads() const {
                                name()));
 }
 
-/// Displacements of the outline are linear over coarse cells: a square that cannot keep one of them away from its tip
-/// has wrong factors (half of K_II with a quarter of a cell).
+/// Displacements of the outline are linear over coarse cells, so the outline has to be at least one coarse cell away
+/// from the tip. With a quarter of a cell K_II would be half of what it is.
 void Tips::check_size(const Tip& tip) const {
   const double least = 2 * tip.coarse_size / largest_enlargement;
   if (options_.size >= least) return;

@@ -8,8 +8,8 @@
 
 namespace sprekk::matrix_flow {
 
-/// The part of `added`, the most of 1, 3/4, 1/2, 1/4 and 0, with which the power x^T (linear + part · added) x is not
-/// negative for any x.
+/// The largest part of 1, 3/4, 1/2, 1/4 and 0 for which the power x^T (linear + part · added) x is not negative for any
+/// x.
 double dissipative_part(const Eigen::MatrixXd& linear, const Eigen::MatrixXd& added);
 
 /// The largest part (1, 3/4, 1/2, 1/4 or 0) of a tip's correction with which the local problems of its nodes together

@@ -17,13 +17,14 @@ struct LumpedFluxMass {
   double share;
 };
 
-/// Of a triangle, or a tetrahedron, exactly: the velocities of unit flux are linear and contain the constant ones.
+/// The mass matrix of a triangle or a tetrahedron, exactly: the velocities of unit flux are linear and contain the
+/// constant ones.
 /// `resistance`: mobility^-1, Pa s/m^2.
 FluxMass mass_of_simplex(const Mesh& mesh, int cell, const Tensor& resistance);
 
-/// Of another cell with the velocities that the map from its reference cell (a square, cube, or a right wedge) gives
-/// (Piola). `offset`: of the points of quadrature from the middle of the reference cell along each of its edges that is
-/// one of a square or cube, or the height of a wedge.
+/// The mass matrix of another cell, with velocities that are mapped from its reference cell (a square, a cube or a
+/// right wedge) by Piola's transform. `offset`: the distance of the points of quadrature from the middle of the
+/// reference cell, along each edge of a square or cube and along the height of a wedge.
 FluxMass mapped_mass(const Mesh& mesh, int cell, const Tensor& resistance, double offset);
 
 /// See lumped_flux_mass.

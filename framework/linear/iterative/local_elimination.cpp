@@ -147,8 +147,8 @@ bool rests_with(const LinearSystem& system, const UnknownBlock& moving, const Un
   return forces[0] < forces[1];
 }
 
-/// Whether a block of displacements refines those of an earlier block of its owner at a few places, such as tips: then
-/// it is eliminated as what is on fractures.
+/// Whether a block of displacements refines an earlier block of the same owner at a few places, such as tips. Such a
+/// block is eliminated together with the unknowns on fractures.
 bool refines_few(const LinearSystem& system, const UnknownBlock& block) {
   if (!are_in_space(block)) return false;
   for (const UnknownBlock& first : system.blocks) {

@@ -46,8 +46,8 @@ class FineModel {
   Vector right_hand_side(const FineLoads& loads, const Eigen::Matrix3Xd& offsets, const Eigen::Matrix2Xd& body_forces,
                          const Vector& u) const;
   Vector back_solve(const Vector& b) const;
-  /// The displacements by forces in some components (2 node + direction) alone, where nothing is prescribed: in these
-  /// components, a row each.
+  /// The displacements in some components (2 node + direction) that forces in these components alone cause: a row for
+  /// each component, 0 where the displacement is prescribed.
   Eigen::MatrixXd responses_within(const std::vector<int>& components, const Eigen::MatrixXd& forces) const;
   /// The same for one set of forces, in all nodes.
   Vector response(const std::vector<int>& components, const Vector& forces) const;

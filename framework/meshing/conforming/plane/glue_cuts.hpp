@@ -8,9 +8,10 @@
 
 namespace sprekk {
 
-/// Gives both sides of a crack the same nodes, so that its group is one of a fracture. gmsh's plug-in "Crack" doubles
-/// the nodes and the lines of a group: a group is a crack where each of its lines is an outer edge of the mesh that
-/// lies on another one, of no other group. Returns whether there was a crack. The cells are counter-clockwise.
+/// Joins the two sides of each crack that gmsh's plug-in "Crack" has cut into the mesh, so that its group of lines is
+/// that of a fracture. The plug-in doubles the nodes and lines of a group. So a group is a crack if each of its lines
+/// is an outer edge of the mesh at the place of another outer edge, which belongs to no other group. Returns whether
+/// there was a crack. The nodes of cells are counter-clockwise.
 bool glue_cuts(RawMesh& mesh, std::vector<FaceGroup>& groups);
 
 }  // namespace sprekk
