@@ -56,7 +56,7 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
   if (options.depends_on_rate)
     rate_and_state_ = std::make_unique<RateAndStateWalls>(context, options.rate_and_state, friction_, here_);
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
-  formulas_->set_time(context.start_time);
+  formulas_->set_time({context.start_time, 0, context.start_time});
   evaluate_formulas();
   stiffness_of_walls_ = stiffness_of_fractures_ = stiffness_of_springs_ = Vector::Ones(dimension * count);
   fracture_size_.assign(mesh_.fractures.size(), 0);
@@ -73,7 +73,7 @@ double FrictionalContact::opening_under(int cell, double normal_traction) const 
 }
 
 void FrictionalContact::evaluate_data(const StepTime& step) {
-  formulas_->set_time(step.end);
+  formulas_->set_time(step);
   evaluate_formulas();
   friction_.evaluate(step);
   if (rate_and_state_ && friction_.depends_on_time()) rate_and_state_->evaluate_data(friction_);

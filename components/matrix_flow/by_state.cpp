@@ -41,7 +41,7 @@ void MatrixFlow::refuse_with_formula(const std::string& what, const std::string&
 }
 
 void MatrixFlow::take_permeability() {
-  const bool has_changed = by_state_->evaluate(evaluated_for_.end);
+  const bool has_changed = by_state_->evaluate(evaluated_for_);
   if (!has_changed && viscosity_of_mobility_ == viscosity_.version()) return;
   viscosity_of_mobility_ = viscosity_.version();
   mobility_ = by_state_->values();

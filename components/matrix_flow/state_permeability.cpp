@@ -78,9 +78,10 @@ bool StatePermeability::take_state() {
   return has_changed;
 }
 
-bool StatePermeability::evaluate(double time) {
-  const bool has_changed = take_state();
-  if (!has_changed && time == time_ && !values_.empty()) return false;
+bool StatePermeability::evaluate(const StepTime& step) {
+  bool has_changed = take_state();
+  for (StateFormula& formula : diagonal_) has_changed = formula.set_time(step) || has_changed;
+  if (!has_changed && !values_.empty()) return false;
   std::vector<Tensor> values(mesh_.cell_count(), Tensor::Zero());
   std::vector<std::vector<Tensor>> by(named_.size(), values);
   std::vector<double> state(permeability_variables().size(), 0), of_state(state.size());
@@ -97,14 +98,12 @@ bool StatePermeability::evaluate(double time) {
       for (std::size_t k = 0; k < named_.size(); ++k) by[k][c](axis, axis) = of_state[named_[k]];
     }
   };
-  for (StateFormula& formula : diagonal_) formula.set_time(time);
   try {
     for (int c = 0; c < mesh_.cell_count(); ++c) evaluate_cell(c);
   } catch (const DataError&) {
     for (Vector& kept : state_) kept.resize(0);  // so that the next call does not take them for evaluated
     throw;
   }
-  time_ = time;
   const bool differs = values != values_;
   values_ = std::move(values);
   by_ = std::move(by);

@@ -28,9 +28,9 @@ class StatePermeability {
   /// Throws InputError where a formula names what no part of the scene gives; `flow`: the name of the component.
   void require(const std::string& flow) const;
 
-  /// Evaluates the formulas at the current state and this time (s). Returns whether a permeability has changed. Throws
+  /// Evaluates the formulas at the current state in this step. Returns whether a permeability has changed. Throws
   /// StateError, and then all values stay. Collective.
-  bool evaluate(double time);
+  bool evaluate(const StepTime& step);
   const std::vector<Tensor>& values() const { return values_; }  ///< m^2, one a cell
   std::size_t variable_count() const { return named_.size(); }   ///< that any formula names
   /// The derivatives of `values` by the k-th of these variables.
@@ -50,7 +50,6 @@ class StatePermeability {
   std::vector<std::vector<StateExpression>> expressions_;  ///< of each variable
   std::vector<std::size_t> named_;                         ///< variables
   std::vector<Vector> state_;                              ///< of each named variable, one a cell
-  double time_ = 0;
   std::vector<Tensor> values_;
   std::vector<std::vector<Tensor>> by_;
 };

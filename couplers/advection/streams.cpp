@@ -43,12 +43,31 @@ void append_walls(const StreamSources& sources, const Vector& rates, double sign
   }
 }
 
-void append_sources(const StreamSources& sources, const std::vector<FluidSource>& given, bool only_own_cells,
+/// The streams of sources. The shares of a source at a point are those of a linear pressure, so some may be negative:
+/// what it takes from these cells mixes with what comes from outside, as in a well, and enters the others.
+void append_sources(const StreamSources& sources, const std::vector<FluidSource>& given, Stream::From inside,
                     std::vector<Stream>& streams) {
-  for (const FluidSource& source : given)
-    for (const auto& [cell, rate] : source.rates)
-      if (!only_own_cells || sources.mesh.cell_rank[cell] == parallel::rank())
-        streams.push_back(from_outside(cell, rate, sources.injected_value(source.name)));
+  const auto is_here = [&](int cell) {
+    return inside == Stream::From::fracture_cell || sources.mesh.cell_rank[cell] == parallel::rank();
+  };
+  for (const FluidSource& source : given) {
+    double entering = 0, leaving = 0;
+    for (const auto& [cell, rate] : source.rates) (rate > 0 ? entering : leaving) += std::abs(rate);
+    const double larger = std::max(entering, leaving);
+    const std::optional<double> outside = sources.injected_value(source.name);
+    for (const auto& [cell, rate] : source.rates) {
+      const double other_way = rate > 0 ? leaving : entering;
+      if (is_here(cell) && other_way < larger)
+        streams.push_back(from_outside(cell, other_way == 0 ? rate : rate * (1 - other_way / larger), outside));
+    }
+    for (const auto& [from, out] : source.rates)
+      for (const auto& [to, in] : source.rates) {
+        if (out >= 0 || in <= 0) continue;
+        const double rate = -out * in / larger;
+        if (is_here(to)) streams.push_back({to, rate, inside, from});
+        if (is_here(from)) streams.push_back({from, -rate, inside, to});
+      }
+  }
 }
 
 /// The streams out of wells into the cells that belong to the flow with this pressure.
@@ -121,7 +140,7 @@ std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRate
     }
   }
   append_walls(sources, rates.walls, 1, streams);
-  append_sources(sources, rates.sources_in_rock, true, streams);
+  append_sources(sources, rates.sources_in_rock, Stream::From::rock_cell, streams);
   append_wells(sources, rates.wells, sources.rock_pressure, true, streams);
   return streams;
 }
@@ -151,7 +170,7 @@ std::vector<Stream> streams_of_fractures(const StreamSources& sources, const Flo
   }
   for (const Junction& junction : mesh.junctions) append_junction(mesh, junction, fluxes, streams);
   append_walls(sources, rates.walls, -1, streams);
-  append_sources(sources, rates.sources_in_fractures, false, streams);
+  append_sources(sources, rates.sources_in_fractures, Stream::From::fracture_cell, streams);
   append_wells(sources, rates.wells, sources.fracture_pressure, false, streams);
   Vector net = Vector::Zero(mesh.fracture_cell_count());
   for (const Stream& stream : streams) net[stream.cell] += stream.rate;

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "framework/assembly/linear_expression.hpp"
+#include "framework/assembly/step_time.hpp"
 #include "framework/config/input_error.hpp"
 #include "framework/config/state.hpp"
 #include "framework/field/field.hpp"
@@ -19,13 +22,24 @@ class StateFormula {
   StateFormula(Data data, const StateVariables& variables, std::vector<Place> places)
       : data_(std::move(data)), variables_(&variables), places_(std::move(places)) {
     if (data_.is_constant()) return;
-    for (const Place& place : places_) named_ |= variables_named(data_, place, variables);
+    for (Place place : places_) {
+      named_ |= variables_named(data_, place, variables);
+      for (const double t : data_.switch_times())  // what holds before, and from there on
+        for (const double time : {std::nextafter(t, -std::numeric_limits<double>::infinity()), t}) {
+          place.t = time;
+          named_ |= variables_named(data_, place, variables);
+        }
+    }
   }
   bool is_formula() const { return named_ != 0; }  ///< at some place
   bool names(std::size_t variable) const { return (named_ >> variable & 1U) != 0; }
   const StateVariables& variables() const { return *variables_; }
-  void set_time(double t) {  ///< s
+  /// From now on it has the values of this step (value_in_step). Returns whether they may differ from those before.
+  bool set_time(const StepTime& step) {
+    const double t = time_in_step(data_, step);
+    if (places_.empty() || places_.front().t == t) return false;
     for (Place& place : places_) place.t = t;
+    return true;
   }
   /// As value_at_state.
   double at(int place, std::span<const double> values, std::span<double> by) const {

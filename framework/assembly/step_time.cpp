@@ -8,7 +8,7 @@
 
 namespace sprekk {
 
-double value_in_step(const Data& data, Place place, const StepTime& step) {
+double time_in_step(const Data& data, const StepTime& step) {
   SPREKK_EXPECT(step.dt >= 0, step.start, step.dt, step.end);
   SPREKK_ASSERT(std::is_sorted(data.switch_times().begin(), data.switch_times().end()));
   const std::vector<double>& jumps = data.switch_times();
@@ -17,8 +17,11 @@ double value_in_step(const Data& data, Place place, const StepTime& step) {
   const double tolerance = rounding * step.dt;
   const auto jump = std::lower_bound(jumps.begin(), jumps.end(), step.end - tolerance);
   const bool jumps_at_end = step.dt > 0 && jump != jumps.end() && *jump <= step.end + tolerance;
-  place.t =
-      jumps_at_end ? std::nextafter(std::min(*jump, step.end), -std::numeric_limits<double>::infinity()) : step.end;
+  return jumps_at_end ? std::nextafter(std::min(*jump, step.end), -std::numeric_limits<double>::infinity()) : step.end;
+}
+
+double value_in_step(const Data& data, Place place, const StepTime& step) {
+  place.t = time_in_step(data, step);
   return data.at(place);
 }
 

@@ -12,9 +12,10 @@ struct StepTime {
   double end = 0;    ///< s; start + dt, or the exact target when a step was cut to hit one
 };
 
-/// The datum as backward Euler takes it: at the end of the step; where it jumps there (Data::switch_times), the value
-/// that held until then. Without a length (dt = 0, before the first step) the step has the value that holds from its
-/// end on. `place.t` is not read.
+/// The time (s) whose value of a datum backward Euler takes: the end of the step; where the datum jumps there
+/// (Data::switch_times), just before it. Without a length (dt = 0, before the first step) the end.
+double time_in_step(const Data& data, const StepTime& step);
+/// The value at that time. `place.t` is not read.
 double value_in_step(const Data& data, Place place, const StepTime& step);
 Point value_in_step(const VectorData& data, const Place& place, const StepTime& step);
 

@@ -33,9 +33,9 @@ Formulas::Formulas(const LawData& laws, std::unique_ptr<FrictionLaw> friction_la
   if (laws.closure) closure_.emplace(*laws.closure, closure_variables(), places);
 }
 
-void Formulas::set_time(double t) {
+void Formulas::set_time(const StepTime& step) {
   for (std::optional<StateFormula>* formula : {&friction_, &cohesion_, &dilation_, &closure_})
-    if (*formula) (*formula)->set_time(t);
+    if (*formula) (*formula)->set_time(step);
 }
 
 bool Formulas::strength_names(WallVariable variable) const {

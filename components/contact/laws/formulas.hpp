@@ -25,7 +25,7 @@ class Formulas {
  public:
   /// `friction_law`: null where friction is a number, a formula, or that of a built-in law.
   Formulas(const LawData& laws, std::unique_ptr<FrictionLaw> friction_law, const std::vector<Place>& places);
-  void set_time(double t);  ///< s
+  void set_time(const StepTime& step);
 
   const StateFormula* friction() const { return pointer(friction_); }
   const FrictionLaw* friction_law() const { return friction_law_.get(); }

@@ -188,7 +188,7 @@ void FractureFlow::evaluate_data(const StepTime& step) {
                             &given_wall_permeability_[1]})
     means->evaluate(step);
   for (MeansAlong& means : transmissivity_of_part_) means.evaluate(step);
-  if (formula_) formula_->set_time(step.end);
+  if (formula_) formula_->set_time(step);
   make_links(step);
   prescribe(step);
 }
