@@ -91,8 +91,10 @@ void FrictionalContact::begin_step(const StepTime& step) {
 }
 
 std::vector<double> FrictionalContact::switch_times() const {
-  std::vector<const Data*> data{&options_->friction, &options_->dilation_angle};
-  if (options_->dynamic_friction) data.push_back(&*options_->dynamic_friction);
+  std::vector<const Data*> data{&options_->friction, &options_->dilation_angle, &options_->cohesion};
+  for (const std::optional<Data>* given :
+       {&options_->dynamic_friction, &options_->dilation, &options_->closure.formula})
+    if (*given) data.push_back(&**given);
   return merged_switch_times(data);
 }
 

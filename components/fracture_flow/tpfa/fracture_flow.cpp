@@ -98,6 +98,7 @@ std::vector<const Data*> FractureFlow::properties() const {
   for (const std::optional<Data>* given : {&options_.given_transmissivity(), &options_.normal_permeability_value,
                                            &options_.wall_permeability[0], &options_.wall_permeability[1]})
     if (*given) data.push_back(&**given);
+  if (const Data* formula = options_.conduction_formula()) data.push_back(formula);
   return data;
 }
 
