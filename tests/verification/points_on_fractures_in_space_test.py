@@ -135,5 +135,32 @@ class PointsOnFractures(SpaceRuns):
                 self.assertEqual("bore hole" in said, bool(words))
 
 
+class PointsInCorners(SpaceRuns):
+    def test_a_rate_in_a_corner_of_cells_enters_all_of_them_alike(self):
+        # In the middle of four squares, whose pressures are equal, and in a node of triangles; the same for a point that is off by round-off.
+        text = """
+geometry:
+  box: {x: [0 m, 40 m], y: [0 m, 40 m], z: [0 m, 20 m]}
+  fractures: {f: {points: [[0 m, 0 m, 10 m], [0 m, 40 m, 10 m], [40 m, 40 m, 10 m], [40 m, 0 m, 10 m]]}}
+mesh: {kind: structured, shape: SHAPE, cells: [4, 4, 2]}
+components:
+  conduit:
+    {type: fracture_flow/tpfa, viscosity: 1 mPa*s, fluid_compressibility: 4e-10 1/Pa, initial_aperture: 0.1 mm,
+     boundary: {left: {pressure: 0 Pa}, right: {pressure: 0 Pa}, front: {pressure: 0 Pa}, back: {pressure: 0 Pa}},
+     injection: {i: {fracture: f, at: [OVER x m, OVER y m, 10 m], rate: 1e-5 m^3/s}}}
+schedule: [{solve: conduit}]
+time: {end: 1 day, step: 1 day}
+"""
+        for shape in ("hexahedra", "tetrahedra"):
+            found = []
+            for x, y in ((20, 20), (20 + 1e-9, 20), (20 - 1e-9, 20 + 1e-9)):
+                path = self.write(text.replace("SHAPE", shape).replace("OVER x", repr(x)).replace("OVER y", repr(y)))
+                found.append(np.sort(self.run_scene(path).fields(kind="fractures")["conduit.pressure"]))
+                np.testing.assert_allclose(found[-1], found[0], rtol=0, atol=1e-8 * found[0][-1])
+            if shape == "hexahedra":
+                self.assertLess(np.ptp(found[0][-4:]), 1e-9 * found[0][-1])
+                self.assertLess(found[0][-5], 0.999 * found[0][-1])
+
+
 if __name__ == "__main__":
     unittest.main()

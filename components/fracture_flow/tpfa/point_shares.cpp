@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "components/fracture_flow/tpfa/equivalent_radius.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
@@ -18,50 +17,6 @@
 
 namespace sprekk::fracture_flow {
 namespace {
-
-/// The cells of the fracture around a cell, and those around them.
-std::vector<int> two_rings(const Mesh& mesh, int cell) {
-  std::vector<int> cells = {cell};
-  for (int ring = 0, first = 0; ring < 2; ++ring) {
-    const int last = static_cast<int>(cells.size());
-    for (; first < last; ++first)
-      for (const int ridge : mesh.fracture_cells[cells[first]].ridges)
-        if (mesh.ridges[ridge].kind == Ridge::Kind::inside)
-          for (const int other : mesh.ridges[ridge].cells)
-            if (std::ranges::find(cells, other) == cells.end()) cells.push_back(other);
-  }
-  return {cells.begin() + 1, cells.end()};
-}
-
-/// In space the cells around keep the total and the place of what enters, so that the pressure away from there does not
-/// depend on the cell that holds the point. None of them gives for that, since what enters has one temperature: where
-/// along_fracture would have one give, the cell and the two nearest cells that enclose the point with it take all; the
-/// cell alone where none do (at rims).
-std::vector<std::pair<int, double>> shares_in_space(const Mesh& mesh, int cell, const Point& at) {
-  std::vector<std::pair<int, double>> shares = along_fracture(mesh, cell, at);
-  if (std::ranges::all_of(shares, [](const auto& share) { return share.second >= 0; })) return shares;
-  shares = {{cell, 1.0}};
-  const FractureCell& home = mesh.fracture_cells[cell];
-  const auto from_home = [&](const Point& x) -> TangentialVector {
-    return home.tangents.transpose() * (x - home.center);
-  };
-  const auto cross = [](const TangentialVector& a, const TangentialVector& b) {
-    return a[0] * b[dimension - 2] - a[dimension - 2] * b[0];
-  };
-  const TangentialVector place = from_home(at);
-  const std::vector<int> around = two_rings(mesh, cell);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const int i : around)
-    for (const int j : around) {
-      const TangentialVector a = from_home(mesh.fracture_cells[i].center), b = from_home(mesh.fracture_cells[j].center);
-      const double area = cross(a, b), of_i = cross(place, b) / area, of_j = cross(a, place) / area;
-      const double extent = std::max(a.norm(), b.norm());
-      if (!(area > 0) || !(of_i >= 0 && of_j >= 0 && of_i + of_j <= 1) || extent >= smallest) continue;
-      smallest = extent;
-      shares = {{cell, 1 - of_i - of_j}, {i, of_i}, {j, of_j}};
-    }
-  return shares;
-}
 
 // Of half a cell: so far beyond its end a point may be its own; as `nearest_fracture_cell` takes cells for equally
 // near.
@@ -148,7 +103,7 @@ double FractureFlow::part_before(const Spot& spot, const HalfCell& home) {
 
 std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Point& at) const {
   if constexpr (dimension == 3) {
-    std::vector<std::pair<int, double>> shares = shares_in_space(mesh_, cell, point_at(cell, at));
+    std::vector<std::pair<int, double>> shares = along_fracture(mesh_, cell, point_at(cell, at));
     const bool is_alone = std::ranges::any_of(shares, [&](const auto& share) {
       return is_prescribed_[share.first] != 0 || transmissivity(share.first).value == 0;
     });
@@ -173,7 +128,7 @@ double FractureFlow::bore_at(const FracturePlace& where, int cell) {
     if (!where.radius) return 0;
     if (const auto known = bores_.find(&where); known != bores_.end()) return known->second;
     const Point at = point_at(cell, *where.at);
-    const double around = equivalent_radius(mesh_, drops_, cell, at, shares_in_space(mesh_, cell, at));
+    const double around = equivalent_radius(mesh_, drops_, cell, at, along_fracture(mesh_, cell, at));
     if (around == 0)
       throw InputError(
           where.origin, "what a bore hole feels is not known here",
