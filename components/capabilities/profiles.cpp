@@ -82,6 +82,9 @@ struct RegisterProfile {
       if (request.about.unit != unit)
         throw InputError(node.origin, "'" + request.name + "' cannot be " + key,
                          "it is no quantity in " + unit + ", which this profile is", "give a number, or an expression");
+      if (request.about.material)
+        throw InputError(node.origin, "'" + request.name + "' cannot be " + key, "it is a property of a material",
+                         "give a number, or an expression");
       const auto law = std::make_shared<Law>();
       law->spec().read(*node.find(key), request.context);
       const auto value = [law, key, where = node.origin, name = request.name](const Place& place) {

@@ -1,6 +1,7 @@
-#include "components/matrix_flow/matrix_flow.hpp"
+#include <algorithm>
 
 #include "components/capabilities/fluid_options.hpp"
+#include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/field/units_of_amounts.hpp"
 
 namespace sprekk::matrix_flow {
@@ -73,6 +74,10 @@ Spec well_spec(Well& well) {
     if (well.at ? !well.points.empty() : well.points.size() < 2)
       throw InputError(node.origin, "'" + node.path + "' does not say where the well is",
                        "it is at one place, 'at', or along a line of two 'points' or more", "give one of them");
+    if (const auto same = std::ranges::adjacent_find(well.points); same != well.points.end())
+      throw InputError(node.find("points")->origin,
+                       "two 'points' of '" + node.path + "' that follow one another are the same",
+                       "both are at " + to_text(*same), "remove one of them, or write 'at' for a well at one place");
     require_one_place(well.rate, "the rate of '" + node.path + "'", "it is that of the whole well",
                       node.find("rate")->origin);
   });

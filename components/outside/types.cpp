@@ -6,6 +6,7 @@
 #include "components/capabilities/temperature.hpp"
 #include "components/outside/program.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/field/units_of_amounts.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::outside {
@@ -37,6 +38,7 @@ class WithPressure : public Base, public MatrixFluid {
   }
   void balance(std::map<std::string, Balance>& balances) const override {
     Base::balance(balances);
+    balances["fluid"].unit = volume_unit;
     balances["fluid"].is_closed = false;
   }
 
@@ -62,6 +64,7 @@ class WithTemperature : public Base, public MatrixTemperature {
   }
   void balance(std::map<std::string, Balance>& balances) const override {
     Base::balance(balances);
+    balances[carried_heat.quantity].unit = carried_heat.amount_unit;
     balances[carried_heat.quantity].is_closed = false;
   }
   const Carried& carried() const override { return carried_heat; }

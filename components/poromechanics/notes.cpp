@@ -74,7 +74,9 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
              (dimension == 2 ? "[0, 0]" : "[0, 0, 0]") + "' to the component");
   if (options.gravity.is_zero() && !options.rock_density.is_zero())
     note("rock_density", origin,
-         "'rock_density' of '" + name + "' has no effect (there is no gravity) give a gravity, or remove it");
+         "'rock_density' of '" + name +
+             "' does not weigh on it (there is no gravity) give a gravity, unless only a profile with depth is to read "
+             "it");
   if (options.bulk_modulus && !options.is_anisotropic)
     note("bulk_modulus", origin,
          "'bulk_modulus' of '" + name +

@@ -7,10 +7,7 @@ namespace sprekk {
 
 void require_programs(const std::vector<Part*>& parts) {
   std::vector<std::string> names;
-  for (const auto* outside : parts_with<SolvedOutside>(parts)) {
-    outside->require_command();
-    names.push_back(outside->component());
-  }
+  for (const auto* outside : parts_with<SolvedOutside>(parts)) names.push_back(outside->component());
   for (const std::string& named : programs_named()) {
     if (std::ranges::count(names, named) > 0) continue;
     if (names.empty())
@@ -18,6 +15,7 @@ void require_programs(const std::vector<Part*>& parts) {
                        "the scene has no component of another program", "leave the option out");
     throw unknown_name({"--program"}, "component of another program", named, names);
   }
+  for (const auto* outside : parts_with<SolvedOutside>(parts)) outside->require_command();
 }
 
 void require_programs_can_join(const std::vector<Part*>& parts, bool has_growth, const StartOptions& start) {

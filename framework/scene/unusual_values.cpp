@@ -200,14 +200,21 @@ class Properties {
   }
 
   void read_column(const PropertyValue& property, const Node& column) {
+    std::vector<std::pair<double, const ColumnValue*>> found;
     for (const FractureGeometry& fracture : scene_.geometry.fractures)
-      for (const ColumnValue& value : fracture.values)
-        if (value.column == column.scalar)
-          add(property,
-              value.value * (value.unit.empty()
-                                 ? 1
-                                 : scale_to_si(value.unit, property.unit, value.unit, value.where, value.column)),
-              quantity_text(value.value, value.unit), value.where);
+      for (const ColumnValue& value : fracture.values) {
+        if (value.column != column.scalar) continue;
+        const bool has_unit = !value.unit.empty();
+        found.emplace_back(
+            value.value *
+                (has_unit ? scale_to_si(value.unit, property.unit, value.unit, value.where, value.column) : 1),
+            &value);
+      }
+    if (found.empty()) return;
+    const auto [least, most] = std::ranges::minmax(found, {}, &std::pair<double, const ColumnValue*>::first);
+    for (const auto& [value, given] : {least, most})
+      add(property, value, quantity_text(given->value, given->unit.empty() ? property.unit : given->unit),
+          given->where);
   }
 
   void add(PropertyValue property, double value, const std::string& text, const Origin& where) {

@@ -140,7 +140,8 @@ INSTANTIATE_TEST_SUITE_P(
         Input{"rock.yaml",
               {"components.rock.gravity=[0, -9.81 m/s^2]", "components.rock.rock_density=2500 kg/m^3"},
               "'rock' is out of balance at the start by 1 MPa"},
-        Input{"rock.yaml", {"components.rock.rock_density=2500 kg/m^3"}, "'rock_density' of 'rock' has no effect"},
+        Input{
+            "rock.yaml", {"components.rock.rock_density=2500 kg/m^3"}, "'rock_density' of 'rock' does not weigh on it"},
         Input{"rock.yaml", {"components.rock.bulk_modulus=1 GPa"}, "'bulk_modulus' of 'rock' has no effect"},
         Input{"flow.yaml",
               {"components.pore.gravity=[0, -9.81 m/s^2]", "components.pore.fluid_density=0 kg/m^3"},
