@@ -73,6 +73,12 @@ struct Geothermal : Profile {
   double at_depth(double depth) const override { return at_surface + gradient * depth; }
 };
 
+/// The profile whose sign a parameter of this name cannot mean.
+std::string forbidden_beside(const std::string& name) {
+  const auto holds = [&](const char* word) { return name.find(word) != std::string::npos; };
+  return holds("stress") || holds("traction") ? "hydrostatic" : holds("pressure") ? "lithostatic" : "";
+}
+
 /// Makes {KEY: {…}} a form of data in this SI unit.
 template <class Law>
 struct RegisterProfile {
@@ -82,6 +88,12 @@ struct RegisterProfile {
       if (request.about.unit != unit)
         throw InputError(node.origin, "'" + request.name + "' cannot be " + key,
                          "it is no quantity in " + unit + ", which this profile is", "give a number, or an expression");
+      if (key == forbidden_beside(request.name))
+        throw InputError(node.origin, "'" + request.name + "' cannot be " + key,
+                         std::string("that is a ") + (key == "hydrostatic" ? "pressure" : "stress") +
+                             "; a fluid presses with a positive pressure, rock with a negative stress",
+                         "take " + std::string(key == "hydrostatic" ? "lithostatic" : "hydrostatic") +
+                             ", or an expression with the sign that you mean");
       if (request.about.material)
         throw InputError(node.origin, "'" + request.name + "' cannot be " + key, "it is a property of a material",
                          "give a number, or an expression");

@@ -230,6 +230,7 @@ output: {probes: {u: {of: rock.displacement, at: [1.7 m, 0.6 m]}}}
         (self.folder / "pull.csv").write_text("t[h],u[mm]\n0,0\n1,2\n", encoding="utf-8")
         table = f"{{table: {self.folder}/survey.csv, of: x}}"
         for setting, reason in ((f"components.pore.initial_pressure={table}", "its axes are those of the box"),
+                                ("components.pore.initial_pressure={hydrostatic: {water_table: 9 m, fluid_density: 1000 kg/m^3}}", "its depth is along y"),
                                 (f"components.rock.boundary.left.displacement_x={{table: {self.folder}/pull.csv}}", "its sign would change"),
                                 ("materials.permeability={along: 1e-20 m^2, across: 2e-20 m^2, angle: 0.1*rad}", "no number")):
             with self.subTest(setting), self.assertRaisesRegex(turn_scene.CannotTurn, reason):

@@ -15,7 +15,7 @@ components:
   pore:
     type: matrix_flow/mpfa
     boundary: {right: {pressure: 0 Pa}, top: {pressure: 0 Pa}}
-    wells: {low: {at: [2 m, 2.5 m], rate: RATE}, side: {at: [1.5 m, 41 m], rate: RATE}}
+    wells: {low: {at: [2 m, 2.5 m], rate: RATE}, side: {points: [[1.5 m, 41 m], [4 m, 46 m]], rate: RATE}}
   salt: {type: matrix_transport/mpfa, diffusion: 1e-9 m^2/s}
   heat: {type: matrix_heat/mpfa, initial_temperature: 300 K, conductivity: 2 W/(m*K), heat_capacity: 2e6 J/(m^3*K)}
 couplers:
@@ -32,7 +32,7 @@ output:
     hot: {of: heat.temperature, take: largest}
 """
 SPACE = (PLANE.replace("y: [0 m, 80 m]", "y: [0 m, 80 m], z: [-60 m, 0 m]").replace("[10, 8]", "[5, 4, 3]")
-         .replace("at: [2 m, 2.5 m]", "at: [3 m, 3.5 m, -3 m]").replace("side: {at: [1.5 m, 41 m]", "side: {points: [[2 m, 3 m, -57 m], [3 m, 44 m, -52 m]]"))
+         .replace("at: [2 m, 2.5 m]", "at: [3 m, 3.5 m, -3 m]").replace("[[1.5 m, 41 m], [4 m, 46 m]]", "[[2 m, 3 m, -57 m], [3 m, 44 m, -52 m]]"))
 SHAPES = {PLANE: ("triangles", "quadrilaterals"), SPACE: ("tetrahedra", "hexahedra")}
 
 
