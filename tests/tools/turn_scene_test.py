@@ -234,7 +234,7 @@ output: {probes: {u: {of: rock.displacement, at: [1.7 m, 0.6 m]}}}
                                 (f"components.rock.boundary.left.displacement_x={{table: {self.folder}/pull.csv}}", "its sign would change"),
                                 ("materials.permeability={along: 1e-20 m^2, across: 2e-20 m^2, angle: 0.1*rad}", "no number")):
             with self.subTest(setting), self.assertRaisesRegex(turn_scene.CannotTurn, reason):
-                turn_scene.turn(WINGS, self.folder / "new", settings=["materials.permeability=", setting] if "permeability" in setting else [setting],
+                turn_scene.turn(WINGS, self.folder / "new", angle=90, settings=["materials.permeability=", setting] if "permeability" in setting else [setting],
                                 program=PROGRAM)
             self.assertFalse((self.folder / "new").exists())
         done = subprocess.run([ROOT / "tools/turn_scene", WINGS, self.folder / "new", "--program", PROGRAM, "--set", f"components.pore.initial_pressure={table}"],

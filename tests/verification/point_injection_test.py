@@ -6,7 +6,7 @@ end: p(s) = Q μ/K s (L - s_w)/L before the well, and with s and s_w counted fro
 import math
 import unittest
 
-from scene_runs import MPIEXEC, SceneRuns, on_two_processes
+from scene_runs import MPIEXEC, ROOT, SceneRuns, on_two_processes
 
 RATE, MOBILITY = 1e-6, 1e-9 / 1e-3  # m^2/s; K/μ, m^3/(Pa s)
 SCENE = """
@@ -127,6 +127,20 @@ class PointInjection(SceneRuns):
     def test_two_processes(self):
         for ours, exact in zip(self.pressures(0.37, 0.5, processes=2), self.exact(0.37, 0.5)):
             self.assertAlmostEqual(ours / exact, 1, delta=1e-9)
+
+
+class PointsInPasses(SceneRuns):
+    def test_the_shares_of_a_point_are_those_of_the_start_of_the_step_in_each_pass(self):
+        # Apertures change in the passes, and would change the shares. A subcycle of one step begins its step in each pass.
+        flow, rock = "{solve: [pore, conduit], stabilize: fixed_stress}", "{solve: [rock, contact]}"
+        settings = ("mesh={size: 2 m, fracture_size: 0.4 m}", "components.conduit.injection.well={at: [4.83 m, 2.83 m], rate: 4e-7 m^2/s}", "time.end=12 h",
+                    "output.fields=false")
+        whole, plain, cycled = (
+            self.run_scene(ROOT / "configs/tutorial/first_scene.yaml", *settings, *(f"schedule=[{schedule}]" for schedule in schedules))
+            for schedules in ((), *([f"{{iterate: {{until: {{relative: 1e-11}}, fallback: none, steps: [{first}, {rock}]}}}}"]
+                                    for first in (flow, f"{{subcycle: {{count: 1, steps: [{flow}]}}}}"))))
+        self.assertEqual(self.largest_difference(cycled, plain), 0)
+        self.assertLess(self.largest_difference(plain, whole), 1e-8)
 
 
 if __name__ == "__main__":

@@ -93,7 +93,7 @@ std::uint64_t FractureFlow::discrete_state() const {
 }
 
 void FractureFlow::begin_step(const StepTime&) {
-  share_points();
+  share_points_at_start();
   if (density_) weigh_links();
   if (!empty_) return;
   // An aperture over a pressure, as they are at the start of the step.

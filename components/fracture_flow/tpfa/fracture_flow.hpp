@@ -293,6 +293,8 @@ class FractureFlow : public Component,
   double bore_at(const FracturePlace& where, int cell);
   void share(OpenPoint& point, bool is_given_pressure) const;
   void share_points();
+  /// From the accepted state, so that each pass of a step, and its monolithic solution, have the same shares.
+  void share_points_at_start();
   double pressure_at(const OpenPoint& point, double rate) const;  ///< Pa
   void check_points_apart() const;
   void assemble_prescribed_points(Assembly& assembly, const StepTime& step) const;
