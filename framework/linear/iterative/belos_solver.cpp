@@ -147,6 +147,7 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
   constexpr double safely = 0.5;  // of the tolerance, since GMRES tests another norm than the loop below
   double r_norm = b_norm, wanted_norm = safely * tolerance_ * b_norm;
   BlockResidual measured;
+  double ratio_before = 0, left_norm = 0;
   // Backward error of a block that is round-off; residual of all with which it may be.
   constexpr double rounding = 1e-14, useless = 1e-3;
   const auto is_converged = [&] {
@@ -160,8 +161,14 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     Gmres::Result step;
     const bool some_are_left = r_norm <= tolerance_ * b_norm;
     const Vector left = restart == 0 ? r : left_to_solve(r, measured, some_are_left ? tolerance_ : rounding);
-    const double left_norm = std::sqrt(parallel::sum(left.squaredNorm()));
-    if (left_norm == 0) break;
+    const double left_before = left_norm;
+    left_norm = std::sqrt(parallel::sum(left.squaredNorm()));
+    // A smaller gain ends it, as usual for iterative refinement. The ratio of a block whose solution is zero stays,
+    // while its residual falls.
+    constexpr double hardly_better = 0.5;
+    const bool stalls = restart > 1 && !(measured.largest_ratio < hardly_better * ratio_before) &&
+                        !(left_norm < hardly_better * left_before);
+    if (left_norm == 0 || stalls) break;
     try {
       step = data_->gmres->solve(left, std::clamp(wanted_norm / left_norm, deepest, shallowest),
                                  max_iterations_ - report.iterations);
@@ -172,11 +179,9 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     y += whole_vector(data_->rows, step.x, data_->unknowns);
     r = b - data_->scaled.matrix * y;
     r_norm = std::sqrt(parallel::sum(r.squaredNorm()));
-    const BlockResidual before = measured;
+    ratio_before = measured.largest_ratio;
     measured = measure(y, b, r);
-    constexpr double hardly_better = 0.5;  // a smaller gain ends it, as usual for iterative refinement
-    const bool stalls = restart > 0 && !(measured.largest_ratio < hardly_better * before.largest_ratio);
-    if (is_converged() || stalls) break;
+    if (is_converged()) break;
     wanted_norm = safely * tolerance_ * std::min(b_norm, measured.smallest_size);
   }
   counts_.iterations += report.iterations;
