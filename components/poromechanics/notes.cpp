@@ -23,7 +23,7 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
                      const Origin& origin) {
   // How much of a prescribed stress acts in a direction (x, y) in which the displacement is prescribed.
   struct Share {
-    double length = 0, all = 0;
+    double length = 0, doubled = 0, all = 0;  // doubled: where a traction acts in this direction, too
   };
   struct Stress {
     const char* name;
@@ -42,8 +42,12 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
         Share& share = overridden[{mesh.side_names[mesh.face_side[f]], stress.name}][k];
         const std::optional<Data>& data = condition->*stress.data;
         share.all += mesh.face_measure[f];
-        if (condition->displacement_of(k) && data && !data->is_zero())
-          share.length += mesh.face_measure[f] * std::abs(axes(k, stress.axis));
+        if (!data || data->is_zero()) continue;
+        const double part = mesh.face_measure[f] * std::abs(axes(k, stress.axis));
+        if (condition->displacement_of(k))
+          share.length += part;
+        else if (condition->traction_along[k])
+          share.doubled += part;
       }
   }
   const auto note = [&](const std::string& what, const Origin& where, const std::string& text) {
@@ -60,6 +64,12 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
                fmt::format("the {} component of '{}' on side '{}' has no effect (the displacement in {} is "
                            "prescribed there, which decides) remove one of the two",
                            direction, stress.name, side, direction));
+        if (share.doubled > square * share.all)
+          notes.add(
+              name + ".boundary." + side + ": " + stress.name + " and traction",
+              fmt::format("{}: '{}' and 'traction_{}' on side '{}' act in the same direction, and are added remove "
+                          "one of the two, unless that is meant",
+                          condition.origin.text(), stress.name, direction, side));
       }
       if (condition.traction && condition.displacement_of(k) && !condition.traction->component[k].is_zero())
         note("boundary." + side + ".traction." + direction, condition.origin,
