@@ -11,7 +11,7 @@ namespace sprekk {
 
 /// Writes folder/matrix_000010.vtu, folder/fractures_000010.vtu (if there are fractures), matrix.pvd and fractures.pvd;
 /// also folder/paths_000010.vtu and paths.pvd from the first time on at which there are lines that the mesh does not
-/// have.
+/// have, and fronts_000010.vtu and fronts.pvd where there are fields on ridges.
 class FieldSeries {
  public:
   explicit FieldSeries(const std::filesystem::path& folder);
@@ -22,10 +22,11 @@ class FieldSeries {
              const std::vector<OutputLine>& lines = {}, PointData points = PointData::only_fields_on_nodes);
 
  private:
-  FieldSeries(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures, TimeSeries paths);
+  FieldSeries(std::filesystem::path folder, TimeSeries matrix, TimeSeries fractures, TimeSeries paths,
+              TimeSeries fronts);
 
   std::filesystem::path folder_;
-  TimeSeries matrix_, fractures_, paths_;
+  TimeSeries matrix_, fractures_, paths_, fronts_;
 };
 
 }  // namespace sprekk

@@ -6,6 +6,7 @@
 #include "framework/field/cells_to_nodes.hpp"
 #include "framework/field/component_names.hpp"
 #include "framework/field/weights_in_cell.hpp"
+#include "framework/mesh/space/fronts.hpp"
 #include "framework/module/module.hpp"
 #include "framework/output/atomic_file.hpp"
 #include "framework/output/vtk_module/vtk_module.hpp"
@@ -151,6 +152,38 @@ void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, con
       add_field(grid.on_cells, field, field.name + ".plus", static_cast<int>(Wall::plus), 2);
       add_field(grid.on_cells, field, field.name + ".minus", static_cast<int>(Wall::minus), 2);
     }
+  }
+  write(file, grid);
+}
+
+void write_front_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields) {
+  GridData grid;
+  grid.cell_dimension = 1;
+  GridData::Array fracture = integers("fracture");
+  std::vector<int> ridges;
+  if constexpr (dimension == 3) {  // in a plane tips are points
+    for (const Front& front : fronts(mesh)) {
+      const int first = grid.point_count(), count = static_cast<int>(front.edges.size());
+      for (const RimEdge& edge : front.edges) add_point(grid, mesh.nodes[edge.nodes[0]]);
+      if (!front.is_closed) add_point(grid, mesh.nodes[front.edges.back().nodes[1]]);
+      for (int i = 0; i < count; ++i) {
+        const bool closes = front.is_closed && i + 1 == count;
+        add_cell(grid, std::array<int, 2>{first + i, closes ? first : first + i + 1});
+        fracture.values.push_back(front.fracture);
+      }
+      ridges.insert(ridges.end(), front.ridges.begin(), front.ridges.end());
+    }
+  }
+  grid.on_cells.push_back(std::move(fracture));
+  for (OutputField field : fields) {
+    require_size(field, mesh);
+    if (field.location != Location::ridge) continue;
+    Vector on_fronts(static_cast<Eigen::Index>(ridges.size()) * field.components);
+    for (std::size_t i = 0; i < ridges.size(); ++i)
+      for (int c = 0; c < field.components; ++c)
+        on_fronts[i * field.components + c] = field.values[ridges[i] * field.components + c];
+    field.values = std::move(on_fronts);
+    add_field(grid.on_cells, field, field.name);
   }
   write(file, grid);
 }

@@ -1,5 +1,5 @@
 // Values along a fracture: linear on straight pieces, nothing mixed across kinks, zero at tips where asked.
-#include "couplers/two_level/along_fracture.hpp"
+#include "couplers/two_level/plane/along_fracture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Values at nodes are those of linear fields, on both sides of a fracture.
-#include "couplers/two_level/nodal_values.hpp"
+#include "couplers/two_level/plane/nodal_values.hpp"
 
 #include <gtest/gtest.h>
 

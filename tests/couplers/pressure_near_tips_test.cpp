@@ -1,5 +1,5 @@
 // The pressure around tips keeps the means of cells, and has the sqrt(r) of the pressure at a tip that fluid leaves.
-#include "couplers/two_level/pressure_near_tips.hpp"
+#include "couplers/two_level/plane/pressure_near_tips.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "framework/discretization/space/rim.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/space/rim.hpp"
 
 namespace sprekk {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "framework/discretization/nodes_around_end.hpp"
-#include "framework/discretization/space/rim.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/space/rim.hpp"
 
 namespace sprekk {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <unordered_set>
 
-#include "framework/discretization/space/rim.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/space/rim.hpp"
 
 namespace sprekk {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "components/fine_fracture/jump_fit/factors_from_jumps.hpp"
+#include "components/fine_fracture/jump_fit/plane/factors_from_jumps.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {

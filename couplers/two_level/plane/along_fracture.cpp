@@ -1,8 +1,8 @@
-#include "couplers/two_level/along_fracture.hpp"
+#include "couplers/two_level/plane/along_fracture.hpp"
 
 #include <algorithm>
 
-#include "couplers/two_level/straight_piece.hpp"
+#include "couplers/two_level/plane/straight_piece.hpp"
 
 namespace sprekk::couplers {
 

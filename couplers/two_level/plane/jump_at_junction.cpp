@@ -1,6 +1,6 @@
-#include "couplers/two_level/jump_at_junction.hpp"
+#include "couplers/two_level/plane/jump_at_junction.hpp"
 
-#include "couplers/two_level/straight_piece.hpp"
+#include "couplers/two_level/plane/straight_piece.hpp"
 
 namespace sprekk::couplers {
 

@@ -15,6 +15,9 @@ struct RimEdge {
   Tensor axes;  ///< see EndFrame::axes; to the left is the plus side
 };
 
+/// The edge at a ridge, with the frame of its first cell as if that ended there.
+RimEdge rim_edge(const Mesh& mesh, int ridge);
+
 /// The edges of rims at a node, at most two for each fracture.
 std::vector<RimEdge> rim_at(const Mesh& mesh, int node);
 

@@ -1,4 +1,4 @@
-#include "couplers/two_level/nodal_values.hpp"
+#include "couplers/two_level/plane/nodal_values.hpp"
 
 #include "framework/discretization/principal_axes.hpp"
 #include "framework/invariants.hpp"

@@ -1,4 +1,4 @@
-#include "couplers/two_level/pressure_near_tips.hpp"
+#include "couplers/two_level/plane/pressure_near_tips.hpp"
 
 #include <Eigen/SparseLU>
 #include <algorithm>

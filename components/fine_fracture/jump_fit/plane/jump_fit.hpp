@@ -5,20 +5,13 @@
 #include <vector>
 
 #include "components/capabilities/fracture_tips.hpp"
-#include "components/fine_fracture/jump_fit/factors_from_jumps.hpp"
+#include "components/fine_fracture/jump_fit/options.hpp"
+#include "components/fine_fracture/jump_fit/plane/factors_from_jumps.hpp"
 #include "components/fine_fracture/tips/ends.hpp"
-#include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 #include "framework/schedule/growing.hpp"
 
 namespace sprekk::fine_fracture {
-
-/// Parameters of such tips.
-struct JumpFitOptions {
-  int cells = 3;      ///< of the fracture, whose jumps the line goes through
-  int leave_out = 1;  ///< cells at the tip that it does not go through
-  Spec spec();
-};
 
 /// The component of tips that stay where they are: factors of each state, from that state alone.
 class JumpFit : public Component, public FractureTips, public NotGrowing {

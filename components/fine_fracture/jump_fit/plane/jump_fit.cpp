@@ -1,4 +1,4 @@
-#include "components/fine_fracture/jump_fit/jump_fit.hpp"
+#include "components/fine_fracture/jump_fit/plane/jump_fit.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "components/fine_fracture/jump_fit/factors_from_jumps.hpp"
+#include "components/fine_fracture/jump_fit/plane/factors_from_jumps.hpp"
 
 #include <array>
 #include <cmath>

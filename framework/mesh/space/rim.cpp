@@ -1,9 +1,8 @@
-#include "framework/discretization/space/rim.hpp"
+#include "framework/mesh/space/rim.hpp"
 
 #include "framework/mesh/geometry.hpp"
 
 namespace sprekk {
-namespace {
 
 RimEdge rim_edge(const Mesh& mesh, int ridge) {
   const int cell = mesh.ridges[ridge].cells[0];
@@ -23,8 +22,6 @@ RimEdge rim_edge(const Mesh& mesh, int ridge) {
   edge.axes << ahead, left, ahead.cross(left);
   return edge;
 }
-
-}  // namespace
 
 std::vector<RimEdge> rim_at(const Mesh& mesh, int node) {
   std::vector<RimEdge> edges;

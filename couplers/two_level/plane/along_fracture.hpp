@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "couplers/two_level/jump_at_junction.hpp"
+#include "couplers/two_level/plane/jump_at_junction.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {

@@ -1,0 +1,59 @@
+// The cells of fractures behind their fronts.
+#pragma once
+
+#include <vector>
+
+#include "framework/mesh/space/fronts.hpp"
+
+namespace sprekk::fine_fracture {
+
+/// A piece of a front without corners.
+struct FrontPiece {
+  int fracture;
+  bool is_closed;
+  std::vector<int> ridges;
+  std::vector<RimEdge> edges;
+  std::vector<double> arc;   ///< m, at the nodes, one more than edges: along the front, of which this is a piece
+  std::vector<Point> ahead;  ///< unit, at the nodes: the mean of those of the edges there
+
+  int count() const { return static_cast<int>(edges.size()); }
+  double length(int edge) const { return arc[edge + 1] - arc[edge]; }
+  double length() const { return arc.back() - arc.front(); }
+  /// From one place on the piece to another, m; around a closed one the shorter way.
+  double way(double from, double to) const;
+  /// The edge so many behind or before this one, or none.
+  int edge_at(int edge, int further) const;
+};
+
+/// Of all fronts. They end at corners of more than 45 degrees, where jumps do not go with the square root of the
+/// distance.
+std::vector<FrontPiece> pieces_of_fronts(const Mesh& mesh);
+
+/// A fracture cell as seen from the front that is nearest.
+struct CellBehind {
+  int piece = none;     ///< none where the way to any front leads across a junction
+  int edge = 0;         ///< of the piece, the nearest
+  double distance = 0;  ///< m, of the centre of the cell
+  double arc = 0;       ///< m, of the nearest place on the front
+  /// As those of a RimEdge, at this place. They turn evenly along the front: with those of single edges, which stand
+  /// askew to the front by up to half of its bends, part of K_III would count as K_II.
+  Tensor axes = Tensor::Zero();
+};
+
+/// One for each fracture cell.
+std::vector<CellBehind> cells_behind(const Mesh& mesh, const std::vector<FrontPiece>& pieces);
+
+/// m, of places in the cell from its piece; their parts of the cell are equal.
+std::vector<double> distances_in_cell(const Mesh& mesh, const FrontPiece& piece, const CellBehind& seen, int cell);
+
+/// m: how far the last cell of a fracture reaches behind the front.
+double depth_behind(const Mesh& mesh, const RimEdge& edge);
+
+/// What is on the line behind the middle of an edge, across the front.
+struct WayBehind {
+  double length;   ///< m, to the next end, junction or side; infinite where there is none
+  bool is_to_tip;  ///< whether a front is there
+};
+WayBehind way_behind(const Mesh& mesh, int fracture, int ridge, const RimEdge& edge);
+
+}  // namespace sprekk::fine_fracture
