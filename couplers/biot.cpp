@@ -18,6 +18,7 @@
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
+#include "framework/assembly/rest_of_balances.hpp"
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/assembly/state_fields.hpp"
 #include "framework/field/counted_amounts.hpp"
@@ -26,7 +27,6 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/mesh_change.hpp"
-#include "framework/parallel/parallel.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -39,7 +39,8 @@ namespace {
 /// not iterated counts every change of volume once, if late. One that is iterated counts the volume with which each
 /// balance holds: what remains of it after the last pass is counted in the next step.
 ///
-/// With `one_way` the first of these terms is left out, and nothing of the rock enters the balance of the fluid.
+/// With `one_way` the first of these terms is left out, and nothing of the rock enters the balance of the fluid. Where
+/// the pores of the fluid are a formula of the state, both terms of the balance are left out, since it has them.
 ///
 /// alpha and the compressibility of the grains are taken at the end of the step. They multiply changes of the state: a
 /// change of alpha or of the compressibility alone moves no fluid.
@@ -69,11 +70,13 @@ class Biot : public Coupler,
       formulas->offer_expression(
           "eps_v", {&rock_.volume_change(),
                     Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()).cwiseInverse()});
+    if (auto* formulas = dynamic_cast<TakesState*>(&rock_)) formulas->offer_state("p", StateField{&fluid_.pressure()});
     alpha_ = Property(options.biot_coefficient, cell_places(mesh_), context.start_time);
     decoupled_ = alpha_.values().isZero(0) && !alpha_.depends_on_time();
     use_alpha();
     use_grains();
     if (decoupled_) return;
+    check_pores();
     if (rock_.bulk_modulus().values().minCoeff() <= 0)
       throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
                        "its stiffness is anisotropic", "give 'bulk_modulus' to the component");
@@ -121,7 +124,7 @@ class Biot : public Coupler,
                   grain_capacity_.cwiseProduct(pressure.now()).lpNorm<Eigen::Infinity>());
       assembly.derivative(pressure, pressure, grains_);
     }
-    if (options_.one_way) return;
+    if (!stores_volume()) return;
     assembly.linear(pressure, rock_.volume_change(), 1, &alpha_in_fluid_);
     SPREKK_EXPECT(rock_.volume_change().constant.size() == mesh_.cell_count(), rock_.volume_change().constant.size());
     assembly.add(pressure, -alpha_in_fluid_.cwiseProduct(counted_volume_.accepted()));
@@ -138,7 +141,7 @@ class Biot : public Coupler,
       return;
     }
     Vector stored = stored_.accepted() + grain_capacity_.cwiseProduct(pressure.now() - pressure.accepted());
-    if (!decoupled_ && !options_.one_way) {
+    if (stores_volume()) {
       Vector volume = rock_.volume_change().now();
       exchange(mesh_, Location::cell, 1, volume);
       stored += alpha_in_fluid_.cwiseProduct(volume - counted_volume_.accepted());
@@ -148,11 +151,9 @@ class Biot : public Coupler,
   }
 
   void count_rest_later(const Assembly& assembly) override {
-    const auto& unknowns = assembly.unknowns();
-    const auto row = std::ranges::find(unknowns, &fluid_.pressure());
-    if (row == unknowns.end() || decoupled_ || options_.one_way) return;
-    Vector rest = rest_of_balances(assembly, static_cast<int>(row - unknowns.begin()));
-    exchange(mesh_, Location::cell, 1, rest);
+    if (!assembly.has_row(fluid_.pressure()) || !stores_volume()) return;
+    const Vector rest =
+        rest_of_balances(assembly, fluid_.pressure(), mesh_, [&](int cell) { return alpha_in_fluid_[cell] > 0; });
     Vector volume = counted_volume_.now();
     for (int c = 0; c < mesh_.cell_count(); ++c)
       if (alpha_in_fluid_[c] > 0) volume[c] -= rest[c] / alpha_in_fluid_[c];
@@ -164,7 +165,7 @@ class Biot : public Coupler,
   /// of the same state on the new mesh. The difference of both totals is spread evenly over the new cells, so that the
   /// total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
-    if (decoupled_ || options_.one_way || change.is_at_start) return;
+    if (!stores_volume() || change.is_at_start) return;
     Vector volume = rock_.volume_change().now();
     exchange(mesh_, Location::cell, 1, volume);
     double difference = 0, area = 0;
@@ -179,7 +180,7 @@ class Biot : public Coupler,
 
   /// Where displacements are zero, any change of volume is round-off.
   void count_amounts_from_here(const SettledFields& settled) override {
-    if (decoupled_ || options_.one_way || settled.fields.empty()) return;
+    if (!stores_volume() || settled.fields.empty()) return;
     Vector volume = rock_.volume_change().now();
     exchange(mesh_, Location::cell, 1, volume);
     counted_volume_.set_both(std::move(volume));
@@ -272,21 +273,19 @@ class Biot : public Coupler,
  private:
   static constexpr const char* undrained = "undrained";  ///< the name of a stabilization
 
-  /// The residuals of the fluid balances of the cells in which the rock's change of volume is counted; valid in cells
-  /// of this process. They are adjusted so that their sum is that of the balances without fluxes between cells:
-  /// round-off of these fluxes is no fluid.
-  Vector rest_of_balances(const Assembly& assembly, int unknown) const {
-    const Vector &residual = assembly.residual(unknown), &in_sum = assembly.balances().residual(unknown);
-    Vector rest = Vector::Zero(mesh_.cell_count()), sums = Vector::Zero(2);
-    for (int c = 0; c < mesh_.cell_count(); ++c) {
-      if (!is_owned(mesh_, Location::cell, c)) continue;
-      if (alpha_in_fluid_[c] > 0) rest[c] = residual[c];
-      sums[0] += std::abs(rest[c]);
-      sums[1] += in_sum[c] - residual[c];
-    }
-    parallel::sum(sums);
-    if (sums[0] > 0) rest += sums[1] / sums[0] * rest.cwiseAbs();
-    return rest;
+  /// Whether a change of the rock's volume is added to the balance of the fluid.
+  bool stores_volume() const { return !decoupled_ && !options_.one_way && !fluid_.has_pores_by_formula(); }
+
+  void check_pores() const {
+    if (!fluid_.has_pores_by_formula() || options_.one_way != fluid_.pores_name("eps_v")) return;
+    const std::string flow = fluid_.pressure().spec().owner;
+    if (options_.one_way)
+      throw InputError(origin_, "'one_way' contradicts the porosity of '" + flow + "'",
+                       "its formula names 'eps_v', so that the rock's change of volume stores fluid",
+                       "remove 'one_way', or 'eps_v' from the formula");
+    throw InputError(origin_, "the pores of '" + flow + "' do not follow the volume of the rock",
+                     "the formula of its 'porosity' is all that they hold, and does not name 'eps_v'",
+                     "add Biot's coefficient times 'eps_v' to the formula, or write 'one_way: true' here");
   }
 
   /// Rock without a flow in it is dry.

@@ -1,7 +1,8 @@
-// The flow where the permeability is a formula of the state.
+// The flow where permeability or porosity are formulas of the state.
 #include <algorithm>
 #include <utility>
 
+#include "components/capabilities/formula_of_cells.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/state_permeability.hpp"
@@ -22,16 +23,29 @@ void MatrixFlow::find_state_permeability() {
   properties_change_ = true;
 }
 
+std::vector<StateOfCells*> MatrixFlow::states() const {
+  std::vector<StateOfCells*> all;
+  if (by_state_) all.push_back(&by_state_->state());
+  if (pores_) all.push_back(&pores_->state());
+  return all;
+}
+
 void MatrixFlow::offer_state(const std::string& variable, const StateField& source) {
-  if (by_state_) by_state_->offer(variable, source);
+  for (StateOfCells* state : states()) state->offer(variable, source);
 }
 
 void MatrixFlow::offer_expression(const std::string& variable, const StateExpression& source) {
-  if (by_state_) by_state_->offer(variable, source);
+  for (StateOfCells* state : states()) state->offer(variable, source);
 }
 
 void MatrixFlow::require_state() const {
-  if (by_state_) by_state_->require(name());
+  const auto remedy = [&](const std::string& variable) {
+    return variable == "T"
+               ? "add a component of the heat in the rock, and a coupler heat_advection with '" + name() + "'"
+               : "add a rock, and '- {type: biot, between: [" + name() + ", ROCK]}' to 'couplers:'";
+  };
+  if (by_state_) by_state_->state().require("permeability", origin_, remedy);
+  if (pores_) pores_->state().require("porosity", origin_, remedy);
 }
 
 void MatrixFlow::refuse_with_formula(const std::string& what, const std::string& why) const {
@@ -72,7 +86,9 @@ void MatrixFlow::release_by_state(double share) {
 }
 
 void MatrixFlow::follow_state(const Assembly& assembly) {
-  if (!by_state_ || !assembly.has_row(pressure_)) return;
+  if (!assembly.has_row(pressure_)) return;
+  if (pores_) take_pores(evaluated_for_);
+  if (!by_state_) return;
   SPREKK_EXPECT(discretized_mesh_ == mesh_.version, name());
   take_permeability();
   linearized_.clear();
@@ -105,7 +121,7 @@ void MatrixFlow::linearize() {
   if (wall_flux_) state.boundary += boundary_of_wall_flux_ * wall_flux_->now();
   for (const OpenBorder& border : borders_) state.boundary += border.boundary * border.outflow->now();
   std::vector<std::vector<Tensor>> by;
-  for (std::size_t k = 0; k < by_state_->variable_count(); ++k) {
+  for (std::size_t k = 0; k < by_state_->state().variable_count(); ++k) {
     by.push_back(by_state_->by(k));
     for (int c = 0; c < mesh_.cell_count(); ++c) by.back()[c] /= viscosity_[c];
     for (std::size_t c = 0; c < held_mobility_.size(); ++c)
@@ -116,7 +132,7 @@ void MatrixFlow::linearize() {
   const std::vector<FluxDerivatives> derivatives =
       differentiate_({mesh_, mobility_, conditions_}, nodes_to_discretize(mesh_), state, by);
   for (std::size_t k = 0; k < derivatives.size(); ++k)
-    for (const auto& [field, of_variable] : by_state_->derivatives_of_variable(k))
+    for (const auto& [field, of_variable] : by_state_->state().derivatives_of_variable(k))
       linearized_.push_back({field, derivatives[k].flux * of_variable, derivatives[k].trace * of_variable});
   if (!wall_flux_) return;
   std::vector<Triplet> entries;

@@ -1,6 +1,7 @@
 // The fluxes through faces at a state of the pressure, and the velocities that follow from them.
 #include <Eigen/LU>
 
+#include "components/capabilities/formula_of_cells.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/products.hpp"
@@ -132,6 +133,7 @@ void MatrixFlow::output(std::vector<OutputField>& fields) const {
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one. Where faces are bent, in space, that sum is V B v for a constant v, with B the sum of (x_face − x_cell) ⊗ area
   // vector over V, which is 1 for flat faces.
+  if (pores_) fields.push_back({name() + ".porosity", "", Location::cell, 1, pores_->values()});
   Vector velocity = Vector::Zero(dimension * mesh_.cell_count());
   if (discretized_mobility_ == 0) {  // nothing has flowed yet
     fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "components/capabilities/formula_of_cells.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/leaky_sides.hpp"
 #include "components/matrix_flow/state_permeability.hpp"
@@ -54,9 +55,10 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   initial_pressure_ = property(options_.initial_pressure).values();
   pressure_.set_both(initial_pressure_);
   find_state_permeability();
+  find_pores(context);
   if (!by_state_) std::ranges::transform(options_.permeability.component, permeability_.begin(), property);
   viscosity_ = property(options_.viscosity);
-  if (options_.porosity) porosity_ = property(*options_.porosity);
+  if (options_.porosity && !pores_) porosity_ = property(*options_.porosity);
   if (options_.storage) {
     storage_ = property(*options_.storage);
   } else {
@@ -83,6 +85,7 @@ double MatrixFlow::gravity_potential(const Point& x) const {
 void MatrixFlow::begin_step(const StepTime& step) {
   evaluate_data(step);
   if (by_state_) take_permeability();
+  if (pores_) take_pores(evaluated_for_);
   linearized_.clear();
   observed_mobility_.clear();
   takes_derivatives_ = true;
@@ -100,9 +103,13 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
   SPREKK_ASSERT(capacity_.size() == mesh_.cell_count() && source_.size() == mesh_.cell_count(), capacity_.size());
   BalanceRows fluid(assembly, pressure_, "fluid");
-  fluid.store(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()),
-              capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
-  assembly.derivative(pressure_, pressure_, capacity_of_pressure_);
+  if (pores_) {
+    assemble_stored_by_state(assembly, fluid);
+  } else {
+    fluid.store(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()),
+                capacity_.cwiseProduct(pressure_.now()).lpNorm<Eigen::Infinity>());
+    assembly.derivative(pressure_, pressure_, capacity_of_pressure_);
+  }
   // Fluxes depend on differences of pressure only, so their terms are added together and compared with the fluxes
   // through faces: single terms of the pressure would hide them where the pressure is high everywhere. Where all terms
   // vanish, the residual is compared with the flow before the step.
@@ -130,9 +137,12 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
   if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
   Vector fluxes = face_fluxes();
   if (side_outflow_) correct_leak(fluxes);
+  if (pores_) count_content();
+  const Vector stored =
+      pores_ ? stored_by_state() : Vector(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()));
   Vector sums = cumulative_.accepted();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    sums[3 * c] += storage_[c] * mesh_.cell_measure[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
+    if (is_in_cell(c)) sums[3 * c] += stored[c];
     sums[3 * c + 1] += step.dt * source_[c];
   }
   for (const auto& [face, cell] : outer_faces_) sums[3 * cell + 2] += step.dt * fluxes[face];

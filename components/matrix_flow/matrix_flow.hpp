@@ -19,6 +19,8 @@
 #include "components/matrix_flow/side_condition.hpp"
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/counts_from_here.hpp"
+#include "framework/assembly/counts_later.hpp"
 #include "framework/assembly/counts_work.hpp"
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/keeps_state.hpp"
@@ -31,6 +33,11 @@
 #include "framework/assembly/state_fields.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
+
+namespace sprekk {
+class FormulaOfCells;
+class StateOfCells;
+}  // namespace sprekk
 
 namespace sprekk::matrix_flow {
 
@@ -81,6 +88,8 @@ struct Options {
 ///
 /// The permeability may be a formula of the state at the end of the step (StatePermeability). Then all operators are
 /// made anew before an assembly with these balances, and Newton's method gets the derivatives of fluxes and traces.
+/// So may the porosity: then S V (p − p_old) becomes the change of what the pores hold since it was counted last
+/// (stored_by_state.cpp), which does not depend on the path of the state.
 class MatrixFlow : public Component,
                    public PiecewiseSmooth,
                    public KeepsState,
@@ -97,7 +106,9 @@ class MatrixFlow : public Component,
                    public NotesStart,
                    public TakesState,
                    public TakesExpressions,
-                   public FollowsState {
+                   public FollowsState,
+                   public CountsAmounts,
+                   public CountsLater {
  public:
   /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
   enum class Unknowns { on_cells, on_cells_and_faces };
@@ -121,6 +132,9 @@ class MatrixFlow : public Component,
   void carry_over(const Part& before, const MeshChange& change) override;
   /// The pressures at the walls of fractures.
   void add_known_within_cells(const Field& field, KnownWithinCells& known) const override;
+  void settled(const MeshChange& change) override;
+  void count_amounts_from_here(const SettledFields& settled) override;
+  void count_rest_later(const Assembly& assembly) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void accepted() override { solved_fluxes_ = {}; }
@@ -157,7 +171,9 @@ class MatrixFlow : public Component,
     return found != options_.boundary.end() && (found->second.pressure || found->second.is_leaky());
   }
   std::optional<OutsideOfRock> outside(int side, const Place& place, const StepTime& step) const override;
-  const Property* porosity_for_storage() const override { return options_.storage ? nullptr : &porosity_; }
+  const Property* porosity_for_storage() const override { return options_.storage || pores_ ? nullptr : &porosity_; }
+  bool has_pores_by_formula() const override { return pores_ != nullptr; }
+  bool pores_name(const std::string& variable) const override;
   void change_viscosity(const Vector& viscosity) override;
   void accept_rock_storage(const Vector& storage) override { rock_storage_ = storage; }
   Field& wall_flux() override { return *wall_flux_; }
@@ -253,6 +269,16 @@ class MatrixFlow : public Component,
   void correct_leak(Vector& fluxes) const;  ///< adds the same to fluxes, m^2/s, as it has been counted
   Vector leaking() const;                   ///< the size of what leaks out of or into each cell, m^2/s
   void use_storage();
+  /// Of a porosity by a formula: its formula and what it excludes, its present values, what pores hold at the present
+  /// state (Field content_), the part of it that a step has stored, m^2.
+  void find_pores(const ComponentContext& context);
+  void take_pores(const StepTime& step);
+  Vector density_ratio() const;  ///< of the fluid, to that at its initial pressure
+  Vector content_now() const;
+  Vector stored_by_state() const;
+  void assemble_stored_by_state(Assembly& assembly, BalanceRows& fluid) const;
+  void count_content();
+  std::vector<StateOfCells*> states() const;  ///< of all formulas
   /// Of the unknowns on faces: start values from the pressures of cells, the matrices, the equations.
   void start_face_pressure();
   void use_face_operators();
@@ -298,7 +324,10 @@ class MatrixFlow : public Component,
   std::vector<char> open_faces_;  ///< of all of them, one flag a face; empty for none
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, symmetric_components> permeability_;  ///< as symmetric_axes has them
-  Property viscosity_, porosity_, compressibility_, storage_;
+  Property viscosity_, porosity_, compressibility_;
+  Property storage_;                             ///< 1/Pa; of pores by a formula: the derivative of what they hold
+  std::unique_ptr<FormulaOfCells> pores_;        ///< nullptr where the porosity does not follow the state
+  Field* content_ = nullptr;                     ///< exists with it only: what pores hold, m^2
   std::unique_ptr<StatePermeability> by_state_;  ///< nullptr where the permeability does not follow the state
   DifferentiateFluxes differentiate_;
   std::uint64_t viscosity_of_mobility_ = 0;  ///< version, with by_state_

@@ -20,7 +20,7 @@ std::vector<const Data*> MatrixFlow::properties() const {
 }
 
 void MatrixFlow::use_properties() {
-  if (!options_.storage) storage_.set(porosity_.values().cwiseProduct(compressibility_.values()));
+  if (!options_.storage && !pores_) storage_.set(porosity_.values().cwiseProduct(compressibility_.values()));
   if (by_state_) {  // take_permeability does the rest
     if (well_cells_.empty()) place_wells();
     return;
@@ -131,7 +131,7 @@ void MatrixFlow::use_storage() {
   const double largest = capacity_.maxCoeff();
   for (int c = 0; c < mesh_.cell_count(); ++c)
     if (!is_in_cell(c)) capacity_[c] = largest > 0 ? largest : 1;
-  capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
+  if (!pores_) capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
 }
 
 double MatrixFlow::diffusivity(int cell) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "framework/config/formula_takers.hpp"
 #include "framework/formula/jumps.hpp"
 #include "framework/formula/parser.hpp"
 
@@ -43,6 +44,9 @@ formula::Parsed parse(const std::string& text, const StateVariables& state, cons
   try {
     return formula::parse(text, names_of(state, sizes));
   } catch (const formula::Problem& problem) {
+    if (const std::string takers = formula_takers(problem.unknown); !takers.empty())
+      throw InputError(where, "unknown name in the expression " + quoted(text) + ": " + quoted(problem.unknown), takers,
+                       "take one of these, or a formula of place and time");
     if (!problem.unknown.empty())
       throw unknown_name(where, "name in the expression " + quoted(text) + ":", problem.unknown, problem.known);
     throw InputError(where, problem.has.empty() ? "malformed expression " + quoted(text) : quoted(text) + problem.has,

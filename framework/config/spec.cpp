@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/config/data_reader.hpp"
+#include "framework/config/formula_takers.hpp"
 #include "framework/config/inner_path.hpp"
 #include "framework/config/node_paths.hpp"
 #include "framework/config/state.hpp"
@@ -141,6 +142,7 @@ void Spec::read_parameter(std::size_t i, const Node& node, const ReadContext& co
   const std::string path = joined_path(node.path, parameter.name);
   if (value != nullptr) {
     const ReadsFormula formula(formula_variables(name_, parameter.name));
+    const ReadsParameter reading(parameter.name);
     readers_[i](*value, context);
     if (context.record && !is_section(parameter)) context.record(path, value->text(), value->origin.text());
     return;

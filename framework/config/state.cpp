@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <map>
 
+#include "framework/config/formula_takers.hpp"
+#include "framework/config/input_error.hpp"
+#include "framework/config/unknown_key.hpp"
+
 namespace sprekk {
 namespace {
 
 thread_local const StateNow* now = nullptr;
 thread_local const StateVariables* read_now = nullptr;
+thread_local const std::string* parameter_now = nullptr;
 
 /// By the names of a spec and of a parameter: a spec is made anew for each map that it reads.
 std::map<std::pair<std::string, std::string>, const StateVariables*>& formula_parameters() {
@@ -83,6 +88,21 @@ std::string formula_text(const std::string& spec, const std::string& parameter) 
     names += (names.empty() ? "" : ", ") + variable.name + " (" + variable.doc +
              (variable.unit.empty() ? ")" : ", " + variable.unit + ")");
   return "A formula may name " + names + ".";
+}
+
+ReadsParameter::ReadsParameter(const std::string& name) : before_(parameter_now) { parameter_now = &name; }
+ReadsParameter::~ReadsParameter() { parameter_now = before_; }
+
+std::string formula_takers(const std::string& variable) {
+  if (!parameter_now) return "";
+  place_of_key(variable);  // makes the specs of all parts, which say what may be a formula
+  std::vector<std::string> takers;
+  for (const auto& [parameter, variables] : formula_parameters())
+    if (parameter.second == *parameter_now && std::ranges::count(*variables, variable, &StateVariable::name) > 0)
+      takers.push_back(parameter.first);
+  if (takers.empty()) return "";
+  return "a formula of " + quoted(variable) + " is taken as " + quoted(*parameter_now) + " by " + listed(takers) +
+         ", and not here";
 }
 
 ReadsFormula::ReadsFormula(const StateVariables* variables) : before_(read_now) { read_now = variables; }

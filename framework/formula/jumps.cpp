@@ -1,19 +1,24 @@
 #include "framework/formula/jumps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace sprekk::formula {
 namespace {
 
-/// Values at which a variable is tested, in SI units, and zero.
-std::vector<double> tested_values() {
+/// Values at which a variable is tested, in SI units, from zero upwards, and then those below zero.
+std::array<std::vector<double>, 2> tested_values() {
   constexpr int first_decade = -12, last_decade = 9;  // from apertures squared to moduli, in SI units
   constexpr int a_decade = 200;                       // steps of 1.2 %: pieces that are narrower are not seen
   std::vector<double> values = {0};
   for (int i = first_decade * a_decade; i <= last_decade * a_decade; ++i)
     values.push_back(std::pow(10, static_cast<double>(i) / a_decade));
-  return values;
+  std::vector<double> below = values;
+  for (double& value : below) value = -value;
+  std::ranges::reverse(below);
+  return {std::move(values), std::move(below)};
 }
 
 /// Neighbours in floating-point numbers between which the piece of the program changes, found between two values.
@@ -39,7 +44,7 @@ std::optional<Jump> find_jump(const Program& program, std::size_t first, std::si
   constexpr double round_off = 1e-9;                           // of the value: powers and functions of large arguments
   std::vector<double> at(count, place);
   if (program.pieces(at).empty()) return std::nullopt;
-  const std::vector<double> values = tested_values();
+  const auto all_values = tested_values();
   for (std::size_t k = first; k < count; ++k) {
     if (!program.uses(static_cast<int>(k))) continue;
     for (const double other : of_others) {
@@ -49,15 +54,18 @@ std::optional<Jump> find_jump(const Program& program, std::size_t first, std::si
         return at;
       };
       const auto pieces = [&](double value) { return program.pieces(with(value)); };
-      std::vector<double> last = pieces(values.front());
-      for (std::size_t i = 1; i < values.size(); ++i) {
-        std::vector<double> next = pieces(values[i]);
-        if (next == last) continue;
-        last = std::move(next);
-        const auto [before, behind] = threshold_between(values[i - 1], values[i], pieces);
-        const double from = program.at(with(before)), to = program.at(with(behind));
-        if (!std::isfinite(from) || !std::isfinite(to)) continue;
-        if (std::abs(to - from) > round_off * std::max(std::abs(from), std::abs(to))) return Jump{k, behind, from, to};
+      for (const std::vector<double>& values : all_values) {
+        std::vector<double> last = pieces(values.front());
+        for (std::size_t i = 1; i < values.size(); ++i) {
+          std::vector<double> next = pieces(values[i]);
+          if (next == last) continue;
+          last = std::move(next);
+          const auto [before, behind] = threshold_between(values[i - 1], values[i], pieces);
+          const double from = program.at(with(before)), to = program.at(with(behind));
+          if (!std::isfinite(from) || !std::isfinite(to)) continue;
+          if (std::abs(to - from) > round_off * std::max(std::abs(from), std::abs(to)))
+            return Jump{k, behind, from, to};
+        }
       }
     }
   }

@@ -88,8 +88,10 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
   build_settling(context);
   now_doing("the first evaluation of all data");
   check_determined();
-  refusing_bad_data([this] { check_data(); });
-  count_from_here({});  // the initial values
+  refusing_bad_data([this] {
+    check_data();
+    count_from_here({});  // the initial values
+  });
   schedule_->check();
   check_stages();
   const bool has_output_probes =

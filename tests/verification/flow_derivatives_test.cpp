@@ -103,6 +103,25 @@ TEST(FlowDerivatives, OfAPermeabilityByFormula) {
     }
 }
 
+TEST(FlowDerivatives, OfAPorosityByFormula) {
+  for (const std::string type : {"mpfa", "tpfa"}) {
+    std::string text = scene("    aperture_floor: 1 mm");
+    const auto put = [&](const std::string& old, const std::string& other) {
+      text.replace(text.find(old), old.size(), other);
+    };
+    put("matrix_flow/mpfa", "matrix_flow/" + type);
+    put("storage: 0.7 1/Pa",
+        "porosity: \"0.4 + 0.2*tanh(p/Pa) + 0.1*x/m*eps_v + 0.1*eps_v^2\", fluid_compressibility: 0.3 1/Pa");
+    SceneRun run = SceneRun::from_text(text);
+    std::vector<Spread> with_rock = spreads;
+    with_rock.push_back({"rock.displacement", -0.3, 0.3});
+    expect_derivatives(run, with_rock, rows,
+                       with(of_all_laws, {{"pore.wall_flux", "conduit.aperture"},
+                                          {"conduit.flux", "conduit.aperture"},
+                                          {"pore.pressure", "rock.displacement"}}));
+  }
+}
+
 TEST(FlowDerivatives, OfTheCubicLawAboveAndBelowItsFloor) {
   SceneRun run = SceneRun::from_text(scene("    aperture_floor: 0.9 m"));
   expect_derivatives(run, spreads, rows,

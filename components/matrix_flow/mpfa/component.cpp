@@ -1,9 +1,9 @@
 // matrix_flow/mpfa: flow in the matrix with the multi-point flux approximation.
+#include "components/capabilities/state_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/mpfa/by_mobility.hpp"
 #include "components/matrix_flow/mpfa/mpfa.hpp"
 #include "components/matrix_flow/mpfa/uncorrected_tips.hpp"
-#include "components/matrix_flow/state_permeability.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::matrix_flow {
@@ -14,7 +14,8 @@ struct MpfaOptions : Options {
     Spec spec = Options::spec("matrix_flow/mpfa",
                               "Flow in the matrix (the paper's Eq. 6): multi-point flux approximation, exact for "
                               "linear pressures on any mesh.");
-    may_be_formula(spec.name(), "permeability", permeability_variables());
+    may_be_formula(spec.name(), "permeability", rock_variables());
+    may_be_formula(spec.name(), "porosity", rock_variables());
     return spec;
   }
 };

@@ -1,6 +1,6 @@
 // matrix_flow/tpfa: flow in the matrix with this flux approximation.
+#include "components/capabilities/state_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
-#include "components/matrix_flow/state_permeability.hpp"
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -12,7 +12,8 @@ struct TpfaOptions : Options {
     Spec spec = Options::spec("matrix_flow/tpfa",
                               "Flow in the matrix (the paper's Eq. 6): two-point flux approximation, monotone; "
                               "consistent on orthogonal meshes only.");
-    may_be_formula(spec.name(), "permeability", permeability_variables());
+    may_be_formula(spec.name(), "permeability", rock_variables());
+    may_be_formula(spec.name(), "porosity", rock_variables());
     return spec;
   }
 };

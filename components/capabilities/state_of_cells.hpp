@@ -1,0 +1,54 @@
+// The state of each cell, as formulas of the rock see it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/assembly/state_fields.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk {
+
+/// What a formula of a property of rock may name.
+const StateVariables& rock_variables();
+
+/// The values of those of rock_variables() that some formulas name, in each cell, and their derivatives by fields.
+class StateOfCells {
+ public:
+  explicit StateOfCells(const Mesh& mesh);
+
+  /// From now on the variables that the formula names have values.
+  void let_name(const StateFormula& formula);
+  std::size_t variable_count() const { return named_.size(); }  ///< that any formula names
+  /// The k-th of these, as an index of rock_variables().
+  std::size_t variable(std::size_t k) const { return named_[k]; }
+  bool names(const std::string& variable) const;
+
+  void offer(const std::string& variable, const StateField& source) { fields_.offer(variable, source); }
+  void offer(const std::string& variable, const StateExpression& source);
+  bool has_all() const;  ///< whether all variables that are named have been offered
+  /// Throws InputError at `where` when formulas of this parameter name what no part of the scene gives;
+  /// `remedy(variable)`: what to add to the scene.
+  void require(const std::string& parameter, const Origin& where,
+               const std::function<std::string(const std::string&)>& remedy) const;
+
+  /// Takes the present values. Returns whether any differ from those of the last call. Collective.
+  bool take();
+  void forget();  ///< lets the next call of `take` return true
+  /// Puts the values of one cell in their places among all variables.
+  void put(int cell, std::vector<double>& state) const;
+  /// Derivatives of the k-th variable by a field, cells × values of the field, for all fields behind it; right in the
+  /// rows of cells that the process owns.
+  std::vector<std::pair<const Field*, SparseMatrix>> derivatives_of_variable(std::size_t k) const;
+
+ private:
+  const Mesh& mesh_;
+  StateFields fields_;
+  std::vector<std::vector<StateExpression>> expressions_;  ///< of each variable
+  std::vector<std::size_t> named_;                         ///< variables
+  std::vector<Vector> values_;                             ///< of each named variable, one a cell
+};
+
+}  // namespace sprekk

@@ -1,0 +1,146 @@
+// The flow where the porosity is a formula of the state: what rock stores is the change of what its pores hold.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "components/capabilities/formula_of_cells.hpp"
+#include "components/matrix_flow/matrix_flow.hpp"
+#include "framework/assembly/balance_rows.hpp"
+#include "framework/assembly/rest_of_balances.hpp"
+#include "framework/field/counted_amounts.hpp"
+#include "framework/field/ownership.hpp"
+#include "framework/field/units_of_amounts.hpp"
+#include "framework/mesh/geometry.hpp"
+#include "framework/mesh/mesh_change.hpp"
+
+namespace sprekk::matrix_flow {
+namespace {
+
+/// What the pores of a cell hold is phi (1 + c (p − p_0)) for each volume that the rock had at the start, with the
+/// compressibility c of the fluid, counted at the density that it has at its initial pressure p_0. Both parts are kept:
+/// where the porosity stays, its large values leave no round-off.
+constexpr int parts = 2;
+
+}  // namespace
+
+void MatrixFlow::find_pores(const ComponentContext& context) {
+  if (!options_.porosity || options_.storage) return;
+  pores_ = FormulaOfCells::find(*options_.porosity, mesh_);
+  if (!pores_) return;
+  pores_->state().offer("p", StateField{&pressure_});
+  if (options_.fluid_compressibility->depends_on_time())
+    throw InputError(origin_,
+                     "the porosity of '" + name() + "' follows the state, and 'fluid_compressibility' the time",
+                     "what pores hold would change at once with a property of the fluid",
+                     "give one compressibility, or a porosity that does not depend on the state");
+  content_ = &context.fields.add(
+      mesh_,
+      amounts_with(pressure_, context.name, "content", volume_unit,
+                   "Volume of pores, and what their fluid is compressed by, that the balance has counted", parts));
+}
+
+bool MatrixFlow::pores_name(const std::string& variable) const { return pores_ && pores_->state().names(variable); }
+
+void MatrixFlow::take_pores(const StepTime& step) {
+  if (!pores_->evaluate(step, inside_) && storage_.values().size() > 0) return;
+  const Vector &phi = pores_->values(), &c = compressibility_.values();
+  Vector by_pressure = phi.cwiseProduct(c);
+  for (std::size_t k = 0; k < pores_->state().variable_count(); ++k)
+    if (rock_variables()[pores_->state().variable(k)].name == "p")
+      by_pressure += pores_->by(k).cwiseProduct(density_ratio());
+  for (int cell = 0; cell < mesh_.cell_count(); ++cell)
+    if (by_pressure[cell] < 0) {
+      pores_->state().forget();
+      throw StateError(fmt::format(
+          "{}: pores of '{}' hold less fluid where its pressure rises: {:.3g} 1/Pa at {} (fluid would gather "
+          "by itself) let 'porosity' not fall with p",
+          origin_.text(), name(), by_pressure[cell], to_text(mesh_.cell_center[cell])));
+    }
+  storage_.set(std::move(by_pressure));
+  use_storage();
+}
+
+Vector MatrixFlow::density_ratio() const {
+  return (1 + compressibility_.values().array() * (pressure_.now() - initial_pressure_).array()).matrix();
+}
+
+Vector MatrixFlow::content_now() const {
+  const Vector& phi = pores_->values();
+  Vector content(parts * mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    content[parts * c] = mesh_.cell_measure[c] * phi[c];
+    content[parts * c + 1] =
+        mesh_.cell_measure[c] * phi[c] * compressibility_[c] * (pressure_.now()[c] - initial_pressure_[c]);
+  }
+  return content;
+}
+
+Vector MatrixFlow::stored_by_state() const {
+  const Vector change = content_now() - content_->accepted();
+  return change(Eigen::seq(0, Eigen::last, parts)) + change(Eigen::seq(1, Eigen::last, parts));
+}
+
+void MatrixFlow::assemble_stored_by_state(Assembly& assembly, BalanceRows& fluid) const {
+  // The formula and the sums leave some last digits of each of the two contents.
+  constexpr double last_digits = 4 * BalanceRows::round_off_of_change;
+  Vector stored = stored_by_state();
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    if (!is_in_cell(c)) stored[c] = capacity_[c] * (pressure_.now()[c] - pressure_.accepted()[c]);
+  fluid.store(stored, last_digits * content_->accepted().lpNorm<Eigen::Infinity>());
+  if (!assembly.wants_derivatives()) return;
+  assembly.diagonal(pressure_, pressure_, capacity_);
+  const Vector volumes =
+      density_ratio().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()));
+  const StateOfCells& state = pores_->state();
+  for (std::size_t k = 0; k < state.variable_count(); ++k) {
+    if (rock_variables()[state.variable(k)].name == "p") continue;
+    const Vector factors = volumes.cwiseProduct(pores_->by(k));
+    for (const auto& [field, of_variable] : state.derivatives_of_variable(k))
+      if (assembly.has_row(*field))
+        assembly.derivative(pressure_, *field, SparseMatrix(factors.asDiagonal() * of_variable));
+  }
+}
+
+void MatrixFlow::count_content() {
+  take_pores(evaluated_for_);
+  content_->set(content_now());
+}
+
+/// What passes have left of a balance is in the rock although its pores do not hold it yet.
+void MatrixFlow::count_rest_later(const Assembly& assembly) {
+  if (!pores_ || !assembly.has_row(pressure_)) return;
+  const Vector rest = rest_of_balances(assembly, pressure_, mesh_, [&](int cell) { return is_in_cell(cell); });
+  Vector content = content_->now(), sums = cumulative_.now();
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    content[parts * c] -= rest[c];
+    sums[3 * c] -= rest[c];
+  }
+  content_->set(std::move(content));
+  cumulative_.set(std::move(sums));
+}
+
+void MatrixFlow::count_amounts_from_here(const SettledFields&) {
+  if (!pores_) return;
+  take_pores({evaluated_for_.start, 0, evaluated_for_.start});
+  content_->set_both(content_now());
+}
+
+/// A change of the mesh must not change the fluid in the pores: from now on they hold what the state says, and the
+/// difference of both totals is spread evenly over the new cells.
+void MatrixFlow::settled(const MeshChange& change) {
+  if (!pores_ || change.is_at_start) return;
+  take_pores(evaluated_for_);
+  Vector content = content_now();
+  double difference = 0, area = 0;
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    for (int part = 0; part < parts; ++part)
+      difference += content[parts * c + part] - content_->accepted()[parts * c + part];
+    if (change.cell[c] == none && is_in_cell(c)) area += mesh_.cell_measure[c];
+  }
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    if (change.cell[c] == none && is_in_cell(c)) content[parts * c] -= difference / area * mesh_.cell_measure[c];
+  content_->set_both(std::move(content));
+}
+
+}  // namespace sprekk::matrix_flow
