@@ -17,7 +17,7 @@ FormulaOfCells::FormulaOfCells(const Data& data, const Mesh& mesh)
 }
 
 bool FormulaOfCells::evaluate(const StepTime& step, const std::vector<char>& inside) {
-  const bool has_changed = state_.take(), is_other_time = formula_.set_time(step);
+  const bool has_changed = state_.take(step), is_other_time = formula_.set_time(step);
   if (!has_changed && !is_other_time && values_.size() > 0) return false;
   Vector values = Vector::Zero(mesh_.cell_count());
   std::vector<Vector> by(state_.variable_count(), values);

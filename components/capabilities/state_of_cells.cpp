@@ -47,14 +47,15 @@ void StateOfCells::require(const std::string& parameter, const Origin& where,
   }
 }
 
-bool StateOfCells::take() {
+bool StateOfCells::take(const StepTime& step) {
   bool has_changed = false;
+  is_settling_ = step.dt > 0 && step.end == step.start;
   for (std::size_t k = 0; k < named_.size(); ++k) {
     Vector values(mesh_.cell_count());
     for (int c = 0; c < mesh_.cell_count(); ++c) values[c] = fields_.now(named_[k], c);
     for (const StateExpression& source : expressions_[named_[k]]) {
       if (source.expression->constant.size() == 0) continue;  // before the first step
-      Vector value = source.expression->now();
+      Vector value = is_settling_ ? source.expression->accepted() : source.expression->now();
       exchange(mesh_, Location::cell, 1, value);
       values += source.factors.cwiseProduct(value);
     }
@@ -85,7 +86,7 @@ std::vector<std::pair<const Field*, SparseMatrix>> StateOfCells::derivatives_of_
     all.emplace_back(source.field, std::move(of_field));
   }
   for (const StateExpression& source : expressions_[named_[k]])
-    if (source.expression->constant.size() > 0)
+    if (!is_settling_ && source.expression->constant.size() > 0)
       for (const LinearExpression::Term& term : source.expression->terms)
         all.emplace_back(term.field, source.factors.asDiagonal() * term.matrix.entries());
   return all;

@@ -34,8 +34,10 @@ class StateOfCells {
   void require(const std::string& parameter, const Origin& where,
                const std::function<std::string(const std::string&)>& remedy) const;
 
-  /// Takes the present values. Returns whether any differ from those of the last call. Collective.
-  bool take();
+  /// Takes the present values. While the state at the start is settled, a step that ends where it begins, what others
+  /// know by expressions (the strain) keeps its accepted values: it counts from the state that is found. Returns
+  /// whether any differ from those of the last call. Collective.
+  bool take(const StepTime& step);
   void forget();  ///< lets the next call of `take` return true
   /// Puts the values of one cell in their places among all variables.
   void put(int cell, std::vector<double>& state) const;
@@ -49,6 +51,7 @@ class StateOfCells {
   std::vector<std::vector<StateExpression>> expressions_;  ///< of each variable
   std::vector<std::size_t> named_;                         ///< variables
   std::vector<Vector> values_;                             ///< of each named variable, one a cell
+  bool is_settling_ = false;
 };
 
 }  // namespace sprekk

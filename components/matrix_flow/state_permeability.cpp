@@ -32,7 +32,7 @@ StatePermeability::StatePermeability(const TensorData& data, const Mesh& mesh, F
 }
 
 bool StatePermeability::evaluate(const StepTime& step) {
-  bool has_changed = state_.take();
+  bool has_changed = state_.take(step);
   for (StateFormula& formula : diagonal_) has_changed = formula.set_time(step) || has_changed;
   if (!has_changed && !values_.empty()) return false;
   std::vector<Tensor> values(mesh_.cell_count(), Tensor::Zero());

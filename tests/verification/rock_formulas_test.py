@@ -255,6 +255,38 @@ schedule: [{solve: [pore, heat]}]""")
         run = self.run_scene(self.write(text))
         self.assertLess(abs(self.outflow(run) / (HEIGHT * K / MU * (350 / 300) ** 2 * HIGH / LENGTH) - 1), 1e-9)
 
+    def test_a_settled_rock_is_the_one_from_which_its_strain_counts(self):
+        # The weight of the rock strains it while it settles; the permeability afterwards, and the pressure that rests, are those without strain.
+        scene = self.write("""
+geometry: {box: {x: [0 m, 20 m], y: [0 m, 30 m]}}
+mesh: {size: 10 m}
+components:
+  pore:
+    type: matrix_flow/mpfa
+    permeability: 1e-15 m^2*exp(eps_v/2e-5)
+    viscosity: 1 mPa*s
+    storage: 1e-10 1/Pa
+    initial_pressure: 1 MPa
+    boundary: {top: {pressure: 1 MPa}, bottom: {pressure: 2 MPa}}
+  rock:
+    type: poromechanics/mpsa
+    young_modulus: 10 GPa
+    poisson_ratio: 0.25
+    rock_density: 2500 kg/m^3
+    gravity: [0 m/s^2, -9.81 m/s^2]
+    boundary: {left: {displacement_x: 0 m}, right: {displacement_x: 0 m}, bottom: {displacement_y: 0 m}}
+couplers: [{type: biot, between: [pore, rock], biot_coefficient: 0}]
+schedule: [{solve: [pore, rock]}]
+time: {end: 10 day, step: 1 day}
+start: {settle: [pore, rock]}
+output: {fields: false, probes: {p: {of: pore.pressure, at: [9 m, 16 m]}, u: {of: rock.displacement, at: [9 m, 29 m]}}}
+""")
+        for settings in ((), ("mesh.size=5 m",), ("components.rock.type=poromechanics/fem", "components.rock.order=second"),
+                         ("couplers.0.biot_coefficient=0.8",)):
+            run = self.run_scene(scene, *settings)
+            self.assertLess(np.abs(run["p[Pa]"] / (1e6 + 1e6 * 14 / 30) - 1).max(), 1e-9, settings)
+            self.assertLess(np.abs(run["u.y[m]"]).max(), 1e-12, settings)
+
     def test_what_is_refused(self):
         for changes, message in (((("mpfa", "rt0"),), "unknown name in the expression"),
                                  (((EXPONENTIAL, "T/(300 K)"),), "names 'T'"),
