@@ -8,6 +8,7 @@
 
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
+#include "components/capabilities/rest_of_balances.hpp"
 #include "components/capabilities/rock_state.hpp"
 #include "components/capabilities/rock_stress.hpp"
 #include "couplers/biot_options.hpp"
@@ -18,7 +19,6 @@
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
-#include "framework/assembly/rest_of_balances.hpp"
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/assembly/state_fields.hpp"
 #include "framework/field/counted_amounts.hpp"

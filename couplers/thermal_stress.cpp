@@ -2,6 +2,7 @@
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/temperature.hpp"
 #include "components/capabilities/usual_ranges.hpp"
+#include "framework/assembly/state_fields.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -36,10 +37,13 @@ class ThermalStress : public Coupler {
         rock_(context.the<PoroelasticRock>()),
         expansion_(options.expansion, cell_places(context.mesh), context.start_time),
         switch_times_(options.expansion.switch_times()) {
+    if (auto* formulas = dynamic_cast<TakesState*>(&rock_))
+      formulas->offer_state("T", StateField{&heat_.temperature()});
     if (rock_.bulk_modulus().values().minCoeff() <= 0)
       throw InputError(context.origin, "coupler " + name() + " does not know the bulk modulus of the rock",
                        "its stiffness is anisotropic", "give 'bulk_modulus' to the component");
     rock_.accept_pore_pressure(heat_.temperature(), stress_by_temperature(), heat_.initial_temperature());
+    rock_.let_alpha_follow_stiffness(heat_.temperature());  // it expands freely, whatever its stiffness
     remember();
   }
 

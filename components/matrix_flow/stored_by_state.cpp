@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "components/capabilities/formula_of_cells.hpp"
+#include "components/capabilities/rest_of_balances.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/balance_rows.hpp"
-#include "framework/assembly/rest_of_balances.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"

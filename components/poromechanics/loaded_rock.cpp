@@ -1,5 +1,7 @@
 #include "components/poromechanics/loaded_rock.hpp"
 
+#include <algorithm>
+
 #include "components/poromechanics/check_conditions.hpp"
 #include "components/poromechanics/principal_stress.hpp"
 #include "framework/field/ownership.hpp"
@@ -19,8 +21,57 @@ LoadedRock::LoadedRock(const ComponentContext& context, const Options& options, 
                                                .role = Role::unknown(BlockKind::bulk_elastic),
                                                .unit = "m",
                                                .doc = "Displacement of the rock"})),
-      stiffness_(options_, mesh_, context.start_time, context.name, context.origin) {
+      stiffness_(options_, mesh_, context.start_time, context.name, context.origin),
+      start_time_(context.start_time) {
   check_conditions(options_, mesh_, location, context.origin);
+  if (!options_.is_anisotropic) young_ = FormulaOfCells::find(*options_.young_modulus, mesh_);
+}
+
+LoadedRock::~LoadedRock() = default;
+
+void LoadedRock::offer_state(const std::string& variable, const StateField& source) {
+  if (!young_ || !young_->state().names(variable)) return;
+  if (std::ranges::count(offered_, variable) > 0)
+    throw InputError(origin_, "the formula of 'young_modulus' names " + quoted(variable),
+                     "two components give one to '" + name() + "'", "couple one of them with the rock");
+  offered_.push_back(variable);
+  young_->state().offer(variable, source);
+  take_initial_young();
+}
+
+/// Strains are zero in the initial state.
+void LoadedRock::take_initial_young() {
+  if (!young_ || !young_->state().has_all()) return;
+  young_->evaluate(start_time_);
+  initial_young_ = young_->values();
+  ratio_ = Vector::Ones(mesh_.cell_count());
+  stiffness_.set_initial_young_modulus(initial_young_);
+}
+
+void LoadedRock::require_state() const {
+  if (!young_) return;
+  young_->state().require("young_modulus", origin_, [&](const std::string& variable) {
+    return variable == "p"
+               ? "add a flow in the rock, and a coupler biot with '" + name() + "'"
+               : "add a component of the heat in the rock, and a coupler thermal_stress with '" + name() + "'";
+  });
+}
+
+void LoadedRock::let_alpha_follow_stiffness(const Field& pressure) {
+  if (!young_) return;
+  for (PoreLoad& load : loads_) load.follows_stiffness = load.follows_stiffness || load.pressure == &pressure;
+}
+
+bool LoadedRock::take_young() {
+  const Excavation& excavation = stiffness_.excavation();
+  std::vector<char> inside(mesh_.cell_count(), 1);
+  for (int c = 0; c < mesh_.cell_count(); ++c) inside[c] = !excavation.is_removed(c);
+  if (!young_->evaluate(evaluated_for_.end, inside)) return false;
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    if (inside[c]) ratio_[c] = young_->values()[c] / initial_young_[c];
+  for (PoreLoad& load : loads_)
+    if (load.follows_stiffness) load.ratio = ratio_;
+  return true;
 }
 
 void LoadedRock::add_wall_traction(FieldStore& fields) {
@@ -122,7 +173,7 @@ Vector LoadedRock::pore_stress() const {
 
 Vector LoadedRock::pore_stress_by(const Field& pressure) const {
   for (const PoreLoad& load : loads_)
-    if (load.pressure == &pressure) return -load.alpha;
+    if (load.pressure == &pressure) return -load.present_alpha();
   return {};
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "components/capabilities/formula_of_cells.hpp"
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/rock_state.hpp"
 #include "components/capabilities/rock_stress.hpp"
@@ -25,6 +27,7 @@ namespace sprekk::poromechanics {
 /// that was settled:
 ///   sigma = sigma_0 + C : grad u − sum of alpha (p − p_0) I,
 /// with C and alpha at the end of the step: earlier values have no effect. Equations are those of a discretization.
+/// Where Young's modulus is a formula of the state, C is that of the initial state times `ratio_`.
 class LoadedRock : public Component,
                    public KeepsState,
                    public CountsWork,
@@ -33,8 +36,14 @@ class LoadedRock : public Component,
                    public RockState,
                    public RockStress,
                    public CountsFromHere,
-                   public NotesStart {
+                   public NotesStart,
+                   public TakesState {
  public:
+  ~LoadedRock() override;
+  void offer_state(const std::string& variable, const StateField& source) override;
+  void require_state() const override;
+  bool stiffness_follows_state() const override { return young_ != nullptr; }
+  void let_alpha_follow_stiffness(const Field& pressure) override;
   bool allows_stages() const override { return true; }
   void count_from_here(const SettledFields& settled) override;
   bool has_settled_reference() const override { return settled_ || has_settled_loads(loads_); }
@@ -67,6 +76,8 @@ class LoadedRock : public Component,
   LoadedRock(const ComponentContext& context, const Options& options, Location location);
   /// To be called by the constructor of a discretization, after its own unknowns.
   void add_wall_traction(FieldStore& fields);
+  /// Takes Young's modulus of the present state. Returns whether it may have changed. Throws StateError.
+  bool take_young();
   /// Evaluates stiffness and excavation for a step. False where loads and stiffness are those of the last call.
   bool evaluate(const StepTime& step);
   /// Changes with the Biot coefficients of any load. Never 0.
@@ -84,6 +95,8 @@ class LoadedRock : public Component,
   Field& displacement_;
   Field* wall_traction_ = nullptr;  ///< exists with fractures only
   RockStiffness stiffness_;
+  std::unique_ptr<FormulaOfCells> young_;  ///< nullptr where Young's modulus does not follow the state
+  Vector ratio_;                           ///< of the present one to that of the initial state; empty without a formula
   std::vector<PoreLoad> loads_;
   std::optional<SettledRock> settled_;  ///< the state from which displacements are counted, if it was settled
   Vector jumps_;                        ///< m, of walls while u = 0; empty where they are zero
@@ -92,8 +105,13 @@ class LoadedRock : public Component,
   bool loads_applied_ = false;  ///< whether the loads are in the constants of the equations
   std::uint64_t discretized_mesh_ = 0, discretized_stiffness_ = 0;
   long discretizations_ = 0;
+  Vector initial_young_;  ///< Pa, one a cell; empty without a formula
+  /// Takes Young's modulus of the initial state, as soon as all is known that its formula names.
+  void take_initial_young();
 
  private:
+  double start_time_;
+  std::vector<std::string> offered_;  ///< variables of the formula of Young's modulus
   std::uint64_t used_excavation_ = 0;
 };
 

@@ -20,14 +20,17 @@ struct PoreLoad {
   Vector given = {};                ///< Biot coefficients of all cells
   std::uint64_t alpha_version = 1;  ///< changes with alpha
   bool is_settled = false;          ///< whether p_0 is that of a settled state, and not the initial one
+  bool follows_stiffness = false;   ///< whether alpha is in proportion to a stiffness that follows the state
+  Vector ratio = {};                ///< of the present stiffness to that of the initial state then; empty: 1
 
   /// Gives other Biot coefficients.
   void change_alpha(Vector of_rock) {
     alpha = std::move(of_rock);
     ++alpha_version;
   }
+  Vector present_alpha() const { return ratio.size() > 0 ? Vector(alpha.cwiseProduct(ratio)) : alpha; }
   /// alpha (p - p_0) with the present pressure, Pa.
-  Vector stress() const { return alpha.cwiseProduct(pressure->now() - reference); }
+  Vector stress() const { return present_alpha().cwiseProduct(pressure->now() - reference); }
 };
 
 /// The stress belongs to the pressures of a state that has been settled: to all where the displacement was, and to

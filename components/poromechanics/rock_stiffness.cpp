@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "components/capabilities/state_of_cells.hpp"
 #include "framework/dense/symmetric_eigen.hpp"
 #include "framework/invariants.hpp"
 
@@ -19,7 +20,12 @@ RockStiffness::RockStiffness(const Options& options, const Mesh& mesh, double st
       stiffness_(mesh.cell_count()) {
   const std::vector<Place> places = cell_places(mesh);
   for (const Data* data : data()) {
-    moduli_.emplace_back(*data, places, start_time);
+    if (StateFormula(*data, rock_variables(), places).is_formula()) {
+      moduli_.emplace_back();
+      moduli_.back().set(Vector::Ones(mesh.cell_count()));
+    } else {
+      moduli_.emplace_back(*data, places, start_time);
+    }
     changes_ = changes_ || data->depends_on_time();
   }
   if (options_.is_anisotropic) {
@@ -34,6 +40,12 @@ void RockStiffness::evaluate(const StepTime& step) {
   for (Property& modulus : moduli_) modulus.evaluate(step);
   excavation_.evaluate(step);
   bulk_modulus_.evaluate(step);
+  compute();
+}
+
+void RockStiffness::set_initial_young_modulus(Vector values) {
+  SPREKK_EXPECT(!options_.is_anisotropic, component_);
+  moduli_[0].set(std::move(values));
   compute();
 }
 

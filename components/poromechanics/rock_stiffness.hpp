@@ -25,6 +25,10 @@ class RockStiffness {
   /// Does nothing when no property depends on time. Throws DataError.
   void evaluate(const StepTime& step);
 
+  /// Of a Young's modulus that is a formula of the state: sets the one of the initial state, Pa. All stiffnesses here
+  /// are those with it; until then there are placeholders.
+  void set_initial_young_modulus(Vector values);
+
   const std::vector<Stiffness>& of_cells() const { return stiffness_; }
   std::optional<LameParameters> lame(int cell) const;             ///< none for anisotropic rock
   const Property& bulk_modulus() const { return bulk_modulus_; }  ///< Pa

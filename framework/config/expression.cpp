@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "framework/config/formula_takers.hpp"
+#include "framework/config/unknown_key.hpp"
 #include "framework/formula/jumps.hpp"
 #include "framework/formula/parser.hpp"
 

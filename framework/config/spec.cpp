@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "framework/config/data_reader.hpp"
-#include "framework/config/formula_takers.hpp"
 #include "framework/config/inner_path.hpp"
 #include "framework/config/node_paths.hpp"
 #include "framework/config/state.hpp"

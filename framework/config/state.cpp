@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "framework/config/formula_takers.hpp"
 #include "framework/config/input_error.hpp"
 #include "framework/config/unknown_key.hpp"
 

@@ -41,4 +41,20 @@ InputError unknown_key(const Origin& where, const std::string& what, const std::
 /// nothing).
 std::string name_advice(const std::string& word, const std::vector<std::string>& known, const std::string& belongs);
 
+/// A guard: while it exists, the parameter of this name is being read.
+class ReadsParameter {
+ public:
+  explicit ReadsParameter(const std::string& name);
+  ~ReadsParameter();
+  ReadsParameter(const ReadsParameter&) = delete;
+  ReadsParameter& operator=(const ReadsParameter&) = delete;
+
+ private:
+  const std::string* before_;
+};
+
+/// "a formula of 'p' is taken as 'permeability' by …, and not here": the specs whose parameter of the name that is
+/// being read may be a formula of this variable; "" for none.
+std::string formula_takers(const std::string& variable);
+
 }  // namespace sprekk

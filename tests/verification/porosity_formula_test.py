@@ -11,8 +11,9 @@ import unittest
 
 import numpy as np
 
-from scene_runs import SceneRuns, on_two_processes
+from scene_runs import ROOT, SceneRuns, on_two_processes
 
+WINGS = ROOT / "configs/paper/wing_cracks.yaml"
 PORES, STIFFENS = 0.1, 20e6  # porosity at p = 0, and Pa
 CLOSED = """
 geometry: {box: {x: [0 m, 2 m], y: [0 m, 1 m]}}
@@ -146,7 +147,7 @@ class PorosityFormula(SceneRuns):
         known = STIFFENS * math.log((before + 0.03) / PORES)
         for kind in ("mpfa", "tpfa"):
             scene = self.write(closed(kind=kind))
-            for settings in ((), ("time.step=30000 s",), ("time.step=1700 s",), ("time.scheme=sdirk2",), ("time.scheme=sdirk2", "time.step=30000 s")):
+            for settings in ((), ("time.step=30000 s",), ("time.step=1700 s",), ("time.scheme=sdirk2",), ("time.scheme=sdirk2", "time.step=30000 s"))[:: 1 if kind == "mpfa" else 3]:
                 with self.subTest(kind=kind, settings=settings):
                     run = self.run_scene(scene, *settings)
                     for probe in ("p", "lowest"):
@@ -214,7 +215,7 @@ schedule: [{solve: [pore, heat]}]""").replace("time: {end: 30000 s, step: 6000 s
             known = root(lambda p, pores=pores: pores(p, (0.8 * p - 30e6) / stiffness) * (1 + 4e-10 * p) - 0.2, 0, 40e6)
             for kind, rock in (("mpfa", "mpsa"), ("tpfa", "fem")):
                 scene = self.write(put(PRESSED, KIND=kind, ROCK=rock, FORMULA=formula))
-                for settings in ((), ("time.step=2 s",), ("time.scheme=sdirk2",), ("schedule=[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 60}, steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}]",)):
+                for settings in ((), ("time.scheme=sdirk2",), ("schedule=[{iterate: {fallback: none, until: {relative: 1e-11, at_most: 60}, steps: [{solve: pore, stabilize: fixed_stress}, {solve: rock}]}}]",)):
                     run = self.run_scene(scene, *settings)
                     self.assertLess(abs(self.last(run, "p") / known - 1), 1e-8, msg=(formula, kind, settings))
                     self.assertLess(np.abs(run["fluid_stored[m^2]"]).max(), 1e-10 * 0.4)
@@ -276,6 +277,12 @@ schedule: [{solve: [pore, heat]}]""").replace("time: {end: 30000 s, step: 6000 s
         for quantity in ("p", "u.x", "pore.left.outflow"):
             first, second, third = (self.last(run, quantity) for run in runs)
             self.assertGreater(math.log2(abs(first - second) / abs(second - third)), 1.8, msg=quantity)
+
+    def test_growth_loses_no_fluid(self):
+        """Across changes of the mesh, to round-off; with Biot's terms and a little more the wings are 33 mm long, as with these terms alone."""
+        formula = self.run_scene(WINGS, "time.end=9h", "materials.porosity=0.01 + 0.8*eps_v + p/(28.13 GPa) + 2*eps_v^2")
+        self.assertLess(np.abs(formula["fluid_balance_error[m^2]"]).max(), 1e-12 * np.abs(formula["fluid_injected[m^2]"]).max())
+        self.assertLess(abs(self.last(formula, "tips.main_last.length") / 0.0334 - 1), 1e-2)
 
     def test_a_start_that_is_settled(self):
         """Strains are counted from there, and so is what the pores hold: where nothing else happens, nothing moves."""

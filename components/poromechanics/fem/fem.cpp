@@ -17,6 +17,7 @@ Spec FemOptions::spec() {
       {{"first", "displacements are linear in cells; stabilized for fluid that cannot flow and walls in contact"},
        {"second", "displacements are of second order"}},
       {.doc = "Order of the displacement."});
+  may_be_formula(spec.name(), "young_modulus", rock_variables());
   return spec;
 }
 

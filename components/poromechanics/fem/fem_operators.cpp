@@ -20,6 +20,7 @@ struct RawStiffness {
   std::vector<Tensor> of_face;  ///< N/m per m
   FacesTogether together;       ///< at first order
   std::vector<CellPoint::Gradients> of_interior;
+  std::vector<Eigen::MatrixXd> of_cells;  ///< at second order
 };
 
 RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& tips,
@@ -28,7 +29,8 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
   RawStiffness result{.matrix = {},
                       .of_face = std::vector<Tensor>(mesh.face_count(), Tensor::Zero()),
                       .together = FacesTogether(raw, groups_at_tips(mesh, tips)),
-                      .of_interior = {}};
+                      .of_interior = {},
+                      .of_cells = {}};
   std::vector<Triplet> entries;
   for (int c = 0; c < mesh.cell_count(); ++c) {
     const bool is_second =
@@ -52,6 +54,7 @@ RawStiffness raw_stiffness(const RawDisplacement& raw, const std::vector<int>& t
       if (order == ElementOrder::first) result.together.add_springs(c, spring->second);
     }
     result.of_interior.push_back(std::move(of_cell.of_interior));
+    if (order == ElementOrder::second) result.of_cells.push_back(std::move(of_cell.of_unknowns));
   }
   result.matrix = made(raw.size(), raw.size(), entries);
   return result;
@@ -246,6 +249,8 @@ FemOperators fem_operators(const RawDisplacement& raw, const std::vector<Stiffne
   result.momentum.of_force = SparseMatrix(to_rows * all.of_force) - rows.kept;
   result.momentum.of_given = SparseMatrix(to_rows * all.of_given) - rows.given;
   result.of_interior = std::move(forces.of_interior);
+  result.of_cells = std::move(forces.of_cells);
+  result.to_rows = rows.kept;
   if (has_volumetric_stress) add_volumetric_stress(mesh, split.taken, result);
   return result;
 }

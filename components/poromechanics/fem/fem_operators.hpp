@@ -34,6 +34,8 @@ struct FemOperators {
   Vector wall_compliance;  ///< how a traction on walls moves the functions of their faces alone, m/Pa, as `jump`
   std::vector<CellPoint::Gradients> of_interior;  ///< see CellStiffness
   std::vector<int> tips;                          ///< see tips_of_faces
+  SparseMatrix to_rows;                   ///< forces on all coefficients become those on unknowns: 0 for what is held
+  std::vector<Eigen::MatrixXd> of_cells;  ///< of second order: CellStiffness::of_unknowns of each cell
 };
 
 /// Assembles the stiffness of a mesh. At second order every coefficient is an unknown, and `raw` has edges in space. At

@@ -60,6 +60,16 @@ FemRock::FemRock(const ComponentContext& context, const FemOptions& options)
                                               .doc = "Part of the stress against a change of volume, compression "
                                                      "positive"});
   add_wall_traction(context.fields);
+  if (!young_) return;
+  if (order_ == ElementOrder::first)
+    throw InputError(origin_, "the Young's modulus of '" + name() + "' follows the state",
+                     "elements of first order are stabilized by more than the stiffness of their cells, whose "
+                     "derivatives are not known",
+                     "write 'order: second'");
+  young_->state().offer(
+      "eps_v",
+      {&volume_of_all_, Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()).cwiseInverse()});
+  take_initial_young();
 }
 
 NeedsDirectSolver::Need FemRock::needs_direct_solver() const {
@@ -99,6 +109,15 @@ void FemRock::discretize() {
   std::vector<char> cells = owned_values(mesh_, Location::cell, mesh_.cell_count(), 1);
   for (int c = 0; c < mesh_.cell_count(); ++c) cells[c] = cells[c] && !stiffness_.excavation().is_removed(c);
   volume_ = quantity_of(operators_.volume, cells);
+  if (young_) {
+    const SparseMatrix whole = operators_.volume * operators_.all.of_displacement;
+    volume_of_all_ = {Vector::Zero(mesh_.cell_count()), {}};
+    int at = 0;
+    for (const Field* field : unknowns()) {
+      volume_of_all_.terms.push_back({field, Operator(SparseMatrix(whole.middleCols(at, field->size())))});
+      at += field->size();
+    }
+  }
   if (wall_traction_)
     jump_ = quantity_of(operators_.jump,
                         owned_values(mesh_, Location::fracture_cell, mesh_.fracture_cell_count(), dimension));
@@ -151,7 +170,7 @@ void FemRock::use_loads() {
     const std::size_t first = quantity->value.terms.size() - loads_.size();
     for (std::size_t i = 0; i < loads_.size(); ++i)
       quantity->value.terms[first + i].matrix =
-          Operator(SparseMatrix(quantity->operators.of_stress * loads_[i].alpha.asDiagonal()));
+          Operator(SparseMatrix(quantity->operators.of_stress * loads_[i].present_alpha().asDiagonal()));
   }
 }
 
@@ -162,7 +181,7 @@ void FemRock::use_given() {
     const LinearInFem& operators = quantity->operators;
     quantity->value.constant = operators.of_force * given_.forces + operators.of_given * given_.displacements;
     for (const PoreLoad& load : loads_)
-      quantity->value.constant -= operators.of_stress * load.alpha.cwiseProduct(load.reference);
+      quantity->value.constant -= operators.of_stress * load.present_alpha().cwiseProduct(load.reference);
   }
   add_jumps(jump_.value.constant);
 }
@@ -176,7 +195,7 @@ void FemRock::require_countable() const {
 
 void FemRock::count_from_equilibrium() {
   keep_settled(
-      settled_forces(options_, raw(), stiffness_.of_cells(), operators_, springs_, coefficients(), pore_stress()),
+      settled_forces(options_, raw(), present_stiffness(), operators_, springs_, coefficients(), pore_stress()),
       given_.displacements);
   for (Field* field : unknowns()) field->set_both(Vector::Zero(field->size()));
 }
@@ -184,8 +203,10 @@ void FemRock::count_from_equilibrium() {
 void FemRock::begin_step(const StepTime& step) {
   evaluate_data(step);
   discretize();
+  if (young_ && take_young()) used_alpha_ = 0;
   use_loads();
   use_given();
+  if (young_) use_young();
 }
 
 void FemRock::assemble(Assembly& assembly, const StepTime&) const {
@@ -195,6 +216,7 @@ void FemRock::assemble(Assembly& assembly, const StepTime&) const {
       SPREKK_EXPECT(i < momentum_.size(), name());
       assembly.linear(*fields[i], momentum_[i].value);
     }
+  if (young_ && assembly.wants_derivatives()) assemble_young(assembly);
 }
 
 Vector FemRock::coefficients() const {
@@ -216,14 +238,12 @@ Vector FemRock::mean_stress() const {
   const bool is_at_rest = std::ranges::all_of(fields, [](const Field* field) { return field->now().isZero(0); });
   if (discretizations_ == 0 || (!settled_ && is_at_rest))
     return stress_without_displacement(mesh_, options_, pore_stress());
-  const Vector all = coefficients();
+  const Vector all = coefficients(), of_pores = pore_stress();
+  const std::vector<Stiffness> stiffness = present_stiffness();
   Vector stress(symmetric_components * mesh_.cell_count());
   for (int c = 0; c < mesh_.cell_count(); ++c) {
-    SymmetricTensor of_cell = stiffness_.of_cells()[c] * strain_of(mean_gradient(raw(), operators_.tips, all, c));
-    for (const PoreLoad& load : loads_) {
-      const double pore = load.alpha[c] * (load.pressure->now()[c] - load.reference[c]);
-      of_cell -= pore * isotropic_components();
-    }
+    SymmetricTensor of_cell = stiffness[c] * strain_of(mean_gradient(raw(), operators_.tips, all, c));
+    of_cell += of_pores[c] * isotropic_components();
     const double support = stiffness_.excavation().support(c);
     if (settled_)
       of_cell += support * settled_->stress.segment<symmetric_components>(symmetric_components * c);

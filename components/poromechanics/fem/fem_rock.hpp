@@ -6,6 +6,7 @@
 #include "components/poromechanics/fem/fem_operators.hpp"
 #include "components/poromechanics/fem/given_loads.hpp"
 #include "components/poromechanics/loaded_rock.hpp"
+#include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/needs_direct_solver.hpp"
 
 namespace sprekk::poromechanics {
@@ -21,7 +22,10 @@ struct FemOptions : Options {
 /// balances the work of the stresses in the displacement of one function with that of the loads (N/m, in space N), or
 /// holds a prescribed displacement. At first order, where rock is nearly incompressible, part of the stress against a
 /// change of volume is an unknown of every cell.
-class FemRock : public LoadedRock, public NeedsDirectSolver {
+///
+/// At second order Young's modulus may be a formula of the state. Then the momentum rows are made anew before an
+/// assembly with them, and Newton's method gets their derivatives by all that the formula names.
+class FemRock : public LoadedRock, public NeedsDirectSolver, public FollowsState {
  public:
   /// Throws InputError as LoadedRock does.
   FemRock(const ComponentContext& context, const FemOptions& options);
@@ -29,6 +33,7 @@ class FemRock : public LoadedRock, public NeedsDirectSolver {
   void evaluate_data(const StepTime& step) override;
   Need needs_direct_solver() const override;
   void begin_step(const StepTime& step) override;
+  void follow_state(const Assembly& assembly) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   /// Throws InputError at first order, where the stabilization is no stress of cells.
   void require_countable() const override;
@@ -58,6 +63,11 @@ class FemRock : public LoadedRock, public NeedsDirectSolver {
   void discretize();
   void use_loads();
   void use_given();
+  /// Of a Young's modulus by a formula: the momentum rows at the present state; their derivatives.
+  void use_young();
+  void assemble_young(Assembly& assembly) const;
+  SparseMatrix owned_rows(SparseMatrix rows, const Field& field) const;
+  std::vector<Stiffness> present_stiffness() const;
   void count_from_equilibrium() override;
   /// A quantity of the rows that `owned` flags: of a linear function of all coefficients, or as it is.
   Quantity quantity_of(const SparseMatrix& of_all, const std::vector<char>& owned) const;
@@ -76,6 +86,7 @@ class FemRock : public LoadedRock, public NeedsDirectSolver {
   GivenLoads given_;
   std::vector<Quantity> momentum_;  ///< of each unknown field
   Quantity volume_, jump_;
+  LinearExpression volume_of_all_;  ///< volume_, with right rows for all cells, of unknowns alone; with a formula
 };
 
 }  // namespace sprekk::poromechanics

@@ -83,6 +83,11 @@ class TwoLevel : public Coupler, public FollowsMesh, public TipSurroundings {
       throw InputError(context.origin, "coupler " + name() + " cannot give the stiffness around tips",
                        "stress intensity factors are those of an isotropic rock; this one is anisotropic",
                        "give the rock a young_modulus and a poisson_ratio, or remove the tips");
+    if (const auto* whole = dynamic_cast<const PoroelasticRock*>(&rock_); whole && whole->stiffness_follows_state())
+      throw InputError(context.origin, "coupler " + name() + " cannot give the stiffness around tips",
+                       "the Young's modulus of the rock follows the state, and stress intensity factors are those of a "
+                       "rock with one modulus",
+                       "give a young_modulus that does not depend on the state, or remove the tips");
     for (int i = 0; i < static_cast<int>(mesh_.fractures.size()); ++i) along_.emplace_back(mesh_, i);
     context.the<FractureTips>().accept_surroundings(*this);
   }

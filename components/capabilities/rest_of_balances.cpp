@@ -1,4 +1,4 @@
-#include "framework/assembly/rest_of_balances.hpp"
+#include "components/capabilities/rest_of_balances.hpp"
 
 #include <algorithm>
 #include <cmath>
