@@ -34,6 +34,15 @@ void Advection::evaluate_data(const StepTime& step) {
   disperse(true, true);
 }
 
+void Advection::begin_step(const StepTime&) {
+  if (!options_.is_limited()) return;
+  // Sides with a value are known when data have been evaluated.
+  if (rock_.value && !limited_in_rock_) limited_in_rock_.emplace(mesh_, *in_rock_);
+  if (fractures_.value && !limited_in_fractures_) limited_in_fractures_.emplace(mesh_, *in_fractures_);
+  if (limited_in_rock_) limited_in_rock_->begin_step();
+  if (limited_in_fractures_) limited_in_fractures_->begin_step();
+}
+
 void Advection::assemble(Assembly& assembly, const StepTime& step) const {
   const auto has_row = [&](const Field& field) { return assembly.has_row(field); };
   const bool is_in_rock = rock_.value && has_row(*rock_.value);

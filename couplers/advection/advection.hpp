@@ -12,6 +12,7 @@
 #include "components/capabilities/matrix_fluid.hpp"
 #include "couplers/advection/fluid_contents.hpp"
 #include "couplers/advection/held_flow.hpp"
+#include "couplers/advection/limited_values.hpp"
 #include "couplers/advection/options.hpp"
 #include "couplers/advection/streams.hpp"
 #include "couplers/advection/well_mixture.hpp"
@@ -29,9 +30,11 @@ namespace sprekk::couplers {
 /// heat capacity of the fluid, for a tracer T is the concentration and c is 1. Together with m = m_old + dt (sum of q)
 /// this is
 ///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)),
-/// so that a uniform value stays uniform whatever the fluxes are, and nothing is lost or made: the amount is conserved
-/// in each schedule, also where the streams are those of a flow that is solved before or after. What has entered by the
-/// start of the step decays at the rate of the cell, c dt r m_old T: a uniform value stays uniform then, too.
+/// and with the scheme `limited`, whose streams between cells have T_from + d (LimitedValues), c dt |q| d more in the
+/// cell that a stream leaves, and less in the one that it enters. So a uniform value stays uniform whatever the fluxes
+/// are, and nothing is lost or made: the amount is conserved in each schedule, also where the streams are those of a
+/// flow that is solved before or after. What has entered by the start of the step decays at the rate of the cell,
+/// c dt r m_old T: a uniform value stays uniform then, too.
 class Advection : public Coupler, public KeepsState, public FollowsMesh, public KeepsTotals, public CountsAmounts {
  public:
   /// Throws InputError without a flow that carries something, and for wells that the coupler leaves out.
@@ -40,7 +43,7 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   /// What is carried through the walls in a step is the same for both sides.
   std::vector<Dependence> dependences() const override;
   void evaluate_data(const StepTime& step) override;
-  void begin_step(const StepTime&) override {}
+  void begin_step(const StepTime&) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void carry_over(const Part& before, const MeshChange&) override {
@@ -64,6 +67,8 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   /// Gives dispersion, where there is any, by the flow as it was last solved.
   void disperse(bool in_rock, bool in_fractures);
   StreamSources sources() const;
+  /// Notes fluid that enters through a side of which no value is told.
+  void note_untold_fluid(Notes& notes) const;
   template <class Medium>
   FluidContents contents(const CouplerContext& context, Medium& medium, Location location, const char* where) const {
     return {context, carried_, medium.value(), location, where, options_.per_volume, medium.decay()};
@@ -75,6 +80,9 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   std::vector<std::optional<double>> injected_by_wells() const;
   /// Throws DataError for a value of a place that the flow does not have.
   void check_names() const;
+  const std::optional<LimitedValues>& limited_of(const FluidContents& place) const;
+  /// LimitedValues::weights; empty with the scheme `upwind`.
+  Vector weights_of(const FluidContents& place, const std::vector<Stream>& streams, const StepTime& step) const;
   /// The value of the fluid that a stream brings, or of the cell that it leaves.
   double value_of(const FluidContents& place, const Stream& stream, const Mixtures& wells) const;
   /// Adds the balance of all cells of a place.
@@ -97,6 +105,7 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   std::string other_aperture_;    ///< a note, or ""
   std::vector<Vector> at_start_;  ///< values of the cells that fluid reaches
   FluidContents rock_, fractures_;
+  std::optional<LimitedValues> limited_in_rock_, limited_in_fractures_;  ///< empty with the scheme `upwind`
   std::optional<HeldFlow> flow_;
   std::vector<std::pair<std::string, double>> injected_;  ///< values in this step
   /// Whether dispersion is that of the step before, because the last solve was for the flow as well.

@@ -68,6 +68,7 @@ void Advection::note_input(Notes& notes) const {
 
 void Advection::note_step(Notes& notes, const StepTime&) const {
   wells_.note(name(), notes);
+  if (flow_->has_flowed()) note_untold_fluid(notes);
   if (disperses_late_)
     notes.add(name() + ": dispersion of the step before",
               "the dispersion of '" + name() +

@@ -29,6 +29,19 @@ double Advection::value_of(const FluidContents& place, const Stream& stream, con
   return own;
 }
 
+const std::optional<LimitedValues>& Advection::limited_of(const FluidContents& place) const {
+  return place.location == Location::cell ? limited_in_rock_ : limited_in_fractures_;
+}
+
+Vector Advection::weights_of(const FluidContents& place, const std::vector<Stream>& streams,
+                             const StepTime& step) const {
+  if (!limited_of(place)) return {};
+  Vector capacity = place.capacity_at_start();
+  const Vector& at_start = place.location == Location::cell ? in_rock_->capacity() : in_fractures_->capacity();
+  if (at_start.size() == capacity.size()) capacity += at_start;
+  return limited_of(place)->weights(streams, capacity, options_.per_volume * step.dt);
+}
+
 void Advection::add(Assembly& assembly, const FluidContents& place, const std::vector<Stream>& streams,
                     const Mixtures& wells, const StepTime& step) const {
   const Field& unknown = *place.value;
@@ -36,22 +49,30 @@ void Advection::add(Assembly& assembly, const FluidContents& place, const std::v
   const Vector capacity = place.capacity_at_start();
   Vector carried = Vector::Zero(unknown.size()), through_sides = carried;
   double largest = 0, largest_rate = 0, largest_difference = 0;
-  std::vector<Triplet> own, of_rock, of_fractures;
+  const std::optional<LimitedValues>& limited = limited_of(place);
+  const Vector weights = weights_of(place, streams, step);
+  std::vector<Triplet> own, of_rock, of_fractures, changes;
   std::array<std::vector<Triplet>, 4> by_flux;  // by Stream::Flux
   for (const Stream& stream : streams) {
     SPREKK_ASSERT(std::isfinite(stream.rate), stream.cell, stream.rate);
-    if (stream.rate <= 0 || stream.from == Stream::From::own) continue;
-    const double difference = unknown.now()[stream.cell] - value_of(place, stream, wells);
+    const bool enters = stream.rate > 0 && stream.from != Stream::From::own;
+    const LimitedValues::Change change =
+        limited ? limited->of(stream, unknown.now(), weights) : LimitedValues::Change{};
+    for (const auto& [cell, by] : change.by_cells) changes.emplace_back(stream.cell, cell, -scale * stream.rate * by);
+    if (!enters && change.value == 0) continue;
+    const double difference =
+        (enters ? unknown.now()[stream.cell] - value_of(place, stream, wells) : 0.0) - change.value;
     const double amount = scale * stream.rate * difference;
     carried[stream.cell] += amount;
     if (stream.is_outside) through_sides[stream.cell] += std::abs(amount);
     largest = std::max(largest, std::abs(amount));
-    largest_rate = std::max(largest_rate, stream.rate);
+    largest_rate = std::max(largest_rate, std::abs(stream.rate));
     if (stream.flux == Stream::Flux::face || stream.flux == Stream::Flux::wall)
       largest_difference = std::max(largest_difference, std::abs(difference));
-    own.emplace_back(stream.cell, stream.cell, scale * stream.rate);
-    if (stream.from == Stream::From::rock_cell) of_rock.emplace_back(stream.cell, stream.index, -scale * stream.rate);
-    if (stream.from == Stream::From::fracture_cell)
+    if (enters) own.emplace_back(stream.cell, stream.cell, scale * stream.rate);
+    if (enters && stream.from == Stream::From::rock_cell)
+      of_rock.emplace_back(stream.cell, stream.index, -scale * stream.rate);
+    if (enters && stream.from == Stream::From::fracture_cell)
       of_fractures.emplace_back(stream.cell, stream.index, -scale * stream.rate);
     if (stream.from == Stream::From::well) {
       const WellMixture& well = *wells[stream.index];
@@ -88,6 +109,7 @@ void Advection::add(Assembly& assembly, const FluidContents& place, const std::v
   if (decaying.size() > 0) assembly.diagonal(unknown, unknown, decaying);
   std::vector<Triplet>& same = place.location == Location::cell ? of_rock : of_fractures;
   same.insert(same.end(), own.begin(), own.end());
+  same.insert(same.end(), changes.begin(), changes.end());
   for (const auto& [other, entries] : {std::pair{&rock_, &of_rock}, std::pair{&fractures_, &of_fractures}})
     if (other->value && !entries->empty())
       assembly.derivative(unknown, *other->value, block(*entries, other->value->size()));
@@ -111,7 +133,12 @@ void Advection::add(Assembly& assembly, const FluidContents& place, const std::v
 void Advection::count(FluidContents& place, const std::vector<Stream>& streams, const Mixtures& wells,
                       const StepTime& step) {
   std::vector<double> values;
-  for (const Stream& stream : streams) values.push_back(value_of(place, stream, wells));
+  const std::optional<LimitedValues>& limited = limited_of(place);
+  const Vector weights = weights_of(place, streams, step);
+  for (const Stream& stream : streams) {
+    values.push_back(value_of(place, stream, wells));
+    if (limited && stream.rate < 0) values.back() += limited->of(stream, place.value->now(), weights).value;
+  }
   const Vector& capacity = &place == &rock_ ? in_rock_->capacity() : in_fractures_->capacity();
   place.count(streams, values, capacity, matrix_ ? matrix_->round_off_base_of_fluxes() : 0, step.dt);
 }

@@ -29,9 +29,18 @@ void AdvectionOptions::declare_injected(Spec& spec, const Carried& carried) {
                                         : "enters with the " + carried.value + " of the cell.")});
 }
 
+void AdvectionOptions::declare_scheme(Spec& spec, const Carried& carried) {
+  spec.choice("scheme", scheme,
+              {{"upwind", "that of the cell, of first order: smears fronts by half a cell for each cell on their way"},
+               {"limited",
+                "linear within the cell, of second order where values are smooth, and never beyond those around; takes "
+                "several iterations in each step"}},
+              {.doc = capitalized(carried.value) + " of the fluid where it passes from one cell to the next."});
+}
+
 Spec HeatAdvectionOptions::spec() {
   Spec spec("heat_advection",
-            "Flowing fluid carries heat, with the temperature of the cell that it comes from (upwind): through the "
+            "Flowing fluid carries heat, with the temperature of where it comes from: through the "
             "matrix, along fractures and through their walls, where the coupler stands between flow and heat.");
   spec.ignore("type").ignore("between");
   spec.quantity("fluid_heat_capacity", per_volume,
@@ -41,13 +50,14 @@ Spec HeatAdvectionOptions::spec() {
                  .required = true,
                  .material = true});
   usually(spec, "fluid_heat_capacity", usual_fluid_heat_capacity());
+  declare_scheme(spec, carried_heat);
   declare_injected(spec, carried_heat);
   return spec;
 }
 
 Spec TracerAdvectionOptions::spec() {
   Spec spec("tracer_advection",
-            "Flowing fluid carries a dissolved tracer, with the concentration of the cell that it comes from (upwind): "
+            "Flowing fluid carries a dissolved tracer, with the concentration of where it comes from: "
             "through the matrix, along fractures and through their walls, where the coupler stands between flow and "
             "tracer.");
   spec.ignore("type").ignore("between");
@@ -60,6 +70,7 @@ Spec TracerAdvectionOptions::spec() {
   spec.quantity(
       "transverse_dispersivity", dispersivity.across,
       {.unit = "m", .range = non_negative(), .doc = "The same across the flow.", .source = "Scheidegger 1961"});
+  declare_scheme(spec, carried_tracer);
   declare_injected(spec, carried_tracer);
   return spec;
 }

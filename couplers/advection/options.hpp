@@ -22,6 +22,9 @@ struct AdvectionOptions {
   double per_volume = 1;  ///< what fluid holds per volume and value; heat: J/(m^3 K)
   Dispersivity dispersivity;
   std::map<std::string, Injected> injected;  ///< by the name of the place in the flow
+  std::string scheme = "upwind";             ///< of the values at faces
+  bool is_limited() const { return scheme == "limited"; }
+  void declare_scheme(Spec& spec, const Carried& carried);
   void declare_injected(Spec& spec, const Carried& carried);
 };
 

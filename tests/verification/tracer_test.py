@@ -326,6 +326,21 @@ class Tracer(SpaceRuns):
         rock = self.run_text(text).fields()
         self.assertLess(abs(rock["salt.concentration"][0] * (1 + 1e-6 * END / 10 / (POROSITY * RETARDATION)) ** 10 - 1), 1e-12)
 
+    def test_fluid_that_enters_without_a_concentration_is_told(self):
+        """Reference: by hand; where it leaves, or has a concentration, there is no note."""
+        text = flowing(2)
+        entering = text.replace("right: {pressure: 0 Pa}", "right: {pressure: 100 kPa}")
+        as_rock = text.replace("boundary: {right: {pressure: 0 Pa}}", "boundary: {right: {as_rock: true}}")
+        as_rock = as_rock.replace("left: {pressure: 20 kPa},", "left: {pressure: 20 kPa}, right: {pressure: 100 kPa},")
+        as_rock = as_rock.replace("boundary: {left: {concentration", "boundary: {right: {concentration: 2 kg/m^3}, left: {concentration")
+        closed = as_rock.replace("decay: 0 1/s, initial_concentration: \"2 kg/m^3\"}", "decay: 0 1/s, initial_concentration: \"2 kg/m^3\", boundary: {right: {concentration: 2 kg/m^3}}}")
+        self.assertNotEqual(closed, as_rock)
+        for scene, words in ((text, None), (entering, "tells no concentration (it has no tracer)"), (as_rock, "though the rock beside has one"), (closed, None)):
+            with self.subTest(words):
+                told = [str(note) for note in self.run_text(scene).notes if "fluid enters" in str(note)]
+                self.assertEqual(len(told), 0 if words is None else 1, told)
+                self.assertTrue(words is None or words in told[0], told)
+
     def test_turned_mirrored_disturbed_and_elsewise(self):
         text = flowing(2, **UNEVEN, decay="1e-4 1/s")
         one, path = self.run_text(text), self.write(text, "flowing.yaml")
@@ -400,6 +415,9 @@ class Tracer(SpaceRuns):
         for wrong, why in ((text.replace("[pore, conduit, salt, water], inj", "[salt, water], inj"), "has no flow that carries tracer"),
                            (text.replace("injected: {well:", "injected: {hole:"), "hole"),
                            (text.replace("concentration: 2 kg/m^3", "concentration: -2 kg/m^3"), "-2"),
+                           (text.replace('initial_concentration: "2 kg/m^3"', 'initial_concentration: "(x/m - 0.5) kg/m^3"'), "must be >= 0 kg/m^3"),
+                           (text.replace("{well: {concentration: 2 kg/m^3}}", '{well: {concentration: "(2 - t/(1 h)) kg/m^3"}}'), "must be >= 0 kg/m^3"),
+                           (text.replace("type: tracer_advection,", "type: tracer_advection, scheme: sharp,"), "limited"),
                            (text.replace("porosity: 0.1}", "porosity: 0}"), "porosity"),
                            (text.replace("retardation: 2", "retardation: 0.5"), "retardation"),
                            (text.replace("left: {concentration: 2 kg/m^3}", "left: {concentration: 2 kg/m^3, flux: 0 kg/(m^2*s)}"), "contradictory")):

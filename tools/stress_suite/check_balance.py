@@ -8,7 +8,7 @@ where it does not depend on the rock and its sides are closed. The program's own
 
 import numpy as np
 
-from . import check_pressure, heat, physics, schemes
+from . import check_pressure, heat, physics, pressed, schemes
 
 PRECISION = 1e-8
 # Newton's method ends when the residual of each cell is below this part of the largest flow between two cells, or below
@@ -27,7 +27,7 @@ def cell_areas(grid):
 def momentum(p, instants):
     if p["sides"] != "stress":
         return []
-    if p["family"] == "heat" and p["order"] == "flow first" and p["expansion"] > 0:
+    if heat.is_in(p) and p["order"] == "flow first" and p["expansion"] > 0:
         return []  # the rock was in equilibrium with the temperatures of the step before, which are not written
     found = []
     for instant in instants:
@@ -44,6 +44,22 @@ def momentum(p, instants):
                 found.append(f"momentum: the mean stress along {'xy'[axis]} is {mean[axis]:.9g} instead of "
                              f"{wanted[axis]:.9g} Pa at t = {instant.time:.6g} s")
     return found
+
+
+def warmed(p, instant, before):
+    """K, by which rock and fractures have been warmed since the instant before (None: the start)."""
+    rock, fractures = instant.cell("heat.temperature[K]"), instant.on_fractures("water.temperature", "K")
+    if before is None:
+        return rock - p["temperature"], fractures - heat.of_fractures(p)
+    return rock - before.cell("heat.temperature[K]"), fractures - before.on_fractures("water.temperature", "K")
+
+
+def expanded(p, instant, before):
+    """m^2 of fluid in each cell of the rock, and m in fractures, that warming has made of the fluid that was there."""
+    if not pressed.is_in(p):
+        return 0.0, 0.0
+    in_rock, in_fractures = warmed(p, instant, before)
+    return cell_areas(instant.matrix) * pressed.of_rock(p) * in_rock, instant.on_fractures("conduit.aperture", "m") * pressed.of_fractures(p) * in_fractures
 
 
 def injected(p, start, stop):
@@ -86,7 +102,7 @@ def fracture_mass(p, instants, main, brought=None):
     bring into these cells, and without regard to their sign: two may exchange any multiple of what a fracture stores, and a rate has its
     last digit."""
     found = []
-    before = None
+    before = earlier = None
     for instant in instants:
         ends = instant.fractures.points[instant.fractures.cells]
         length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
@@ -99,7 +115,7 @@ def fracture_mass(p, instants, main, brought=None):
             plus, minus = (step * length * walls[f"pore.wall_flux.{side}[m/s]"] for side in ("plus", "minus"))
             out = plus + minus
             opened = length * (aperture - before[1])
-            pressed = length * compressed(p, before[1], aperture, pressure - before[2])
+            compression = length * (compressed(p, before[1], aperture, pressure - before[2]) - expanded(p, instant, earlier)[1])
             fracture = networks(instant)
             for number in np.unique(fracture):
                 own = fracture == number
@@ -107,21 +123,21 @@ def fracture_mass(p, instants, main, brought=None):
                     source, through = brought(before[0], instant.time, own)
                 else:
                     source, through = injected(p, before[0], instant.time) if number == main else 0.0, 0.0
-                error = opened[own].sum() + pressed[own].sum() + out[own].sum() - source
+                error = opened[own].sum() + compression[own].sum() + out[own].sum() - source
                 # Much may enter through one wall and leave through the other. A row of the program's balances holds where its residual is
                 # the round-off of the fluid in the fullest cell: at rest, fluxes stay that are less than that.
                 volume = length * np.abs(aperture) * (1 + p["compressibility"] * np.abs(pressure))
                 digits = 100e-15 * (volume + np.abs(plus) + np.abs(minus))[own].sum() + ROUND_OFF * volume.max() * own.sum() + LAST_DIGIT * through
-                size = max(np.abs(opened).max(), np.abs(pressed).max(), np.abs(out).max(), abs(source))
+                size = max(np.abs(opened).max(), np.abs(compression).max(), np.abs(out).max(), abs(source))
                 if abs(error) > PRECISION * size + digits:
                     found.append(f"mass: fracture {number} is wrong by {error:.3g} of {size:.3g} m^2 "
                                  f"at t = {instant.time:.6g} s")
-        before = (instant.time, aperture, pressure)
+        before, earlier = (instant.time, aperture, pressure), instant
     return found
 
 
 def viscosity(p):
-    return heat.least_viscosity(p) if p["family"] == "heat" else p["viscosity"]
+    return heat.least_viscosity(p) if heat.is_in(p) else p["viscosity"]
 
 
 def conductances(instant):
@@ -153,7 +169,7 @@ def matrix_mass(p, instants, brought=None):
     if p["alpha"] > 0 or p["boundary"] != "none":
         return []
     found = []
-    before = (0.0, p["initial"])
+    before, earlier = (0.0, p["initial"]), None
     for instant in instants:
         area, pressure = cell_areas(instant.matrix), instant.cell("pore.pressure[Pa]")
         if instant.follows:
@@ -162,14 +178,14 @@ def matrix_mass(p, instants, brought=None):
             walls = instant.fractures.cell_data
             received = (instant.time - before[0]) * length * (walls["pore.wall_flux.plus[m/s]"] +
                                                               walls["pore.wall_flux.minus[m/s]"])
-            stored = p["storage"] * area * (pressure - before[1])
+            stored = p["storage"] * area * (pressure - before[1]) - expanded(p, instant, earlier)[0]
             source, through = brought(before[0], instant.time, None) if brought else (0.0, 0.0)
             error = stored.sum() - received.sum() - source
             size = max(np.abs(stored).max(), np.abs(received).max(), abs(source))
             digits = 1e-13 * (p["storage"] * area * np.abs(pressure)).sum() + LAST_DIGIT * through
             if abs(error) > PRECISION * size + digits + allowed_flow(p, instant):
                 found.append(f"mass: the matrix is wrong by {error:.3g} of {size:.3g} m^2 at t = {instant.time:.6g} s")
-        before = (instant.time, pressure)
+        before, earlier = (instant.time, pressure), instant
     return found
 
 

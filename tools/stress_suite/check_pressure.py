@@ -11,6 +11,7 @@ Bounds: a pressure lies between those that were given, widened by what loads and
   sides of the box.
 - Walls that overlap (contact/penalty) press on the fluid as a fracture that closes, and let go of it.
 - Heat: what expands counts as a load, 3 K alpha_T times the range of temperatures.
+- Fluid that is warmed in closed rock, or in a closed fracture: its expansion over the compressibility there.
 - Gravity: the weight of the heaviest fluid between two corners of the box.
 - Wells with limits: these, where their rates drive pressures to them, and given ones; in rock for the mean of the cells that share
   a well, at its place.
@@ -32,7 +33,7 @@ import math
 
 import numpy as np
 
-from . import buoyancy, check_wells, heat, limited_wells, physics, swaps
+from . import buoyancy, check_wells, heat, limited_wells, physics, pressed, swaps
 
 MISSED = 0.05  # of the differences
 PEAK = 0.02
@@ -143,8 +144,9 @@ def bounds(p, instant, stresses, has_opened):
     given = [p["initial"]] + ([p["boundary_pressure"]] if p["boundary"] == "across" else []) + limited_wells.pressures(p)
     mean = 0.0
     if p["alpha"] > 0:
-        heated = 3 * physics.bulk_modulus(p) * p["expansion"] * (max(heat.given(p)) - min(heat.given(p))) if p["family"] == "heat" else 0.0
+        heated = 3 * physics.bulk_modulus(p) * p["expansion"] * (max(heat.given(p)) - min(heat.given(p))) if heat.is_in(p) else 0.0
         mean = p["alpha"] * (stresses.most - stresses.least + heated) / (p["alpha"] ** 2 + p["storage"] * physics.in_plane_modulus(p))
+    mean += pressed.pressures(p, heat.given(p)) if pressed.is_in(p) else 0.0
     volume, length = abs(p["volume"] * physics.length(p) * p["aperture"]), physics.length(p)
     lowest, highest = min(given) - mean - buoyancy.weight(p), max(given) + mean + buoyancy.weight(p)
     if has_opened:

@@ -2,7 +2,7 @@
 
 import shutil
 
-from . import buoyancy, check_balance, check_contact, check_end, check_faults, check_finite, check_growing, check_heat, check_pressure, check_space, check_wells, faults, growing, physics, ranges, run, scene, schemes, space, swaps, written
+from . import buoyancy, check_balance, check_contact, check_end, check_faults, check_finite, check_growing, check_heat, check_pressure, check_space, check_wells, faults, growing, heat, physics, ranges, run, scene, schemes, space, swaps, written
 
 
 def describe(p):
@@ -28,12 +28,12 @@ def strain_told(folder):
     return written.told(folder, "rock large strain", r"changes by (\S+) of the distance")
 
 
-def beyond_bounds_with_two_points(program, chosen, p, folder):
-    """How temperatures of the same scene, conducted by two-point fluxes, miss their bounds. They keep them whatever the mesh, so what
-    multi-point fluxes miss is theirs."""
-    twin = {**p, "conduction": "tpfa"}
+def beyond_bounds_with_two_points(program, chosen, p, folder, kind):
+    """How temperatures (concentrations) of the same scene, conducted by two-point fluxes, miss their bounds. They keep them whatever the
+    mesh, so what multi-point fluxes miss is theirs."""
+    twin = {**p, "conduction" if kind is check_heat.HEAT else "diffused": "tpfa"}
     ended = run.run(program, scene.write(twin, folder / "two_points"), folder / "two_points/results", chosen.limit)
-    return check_heat.bounds(twin, written.instants(ended.folder)) if ended.code == 0 else check_end.failures(ended)
+    return check_heat.bounds(twin, written.instants(ended.folder), kind=kind) if ended.code == 0 else check_end.failures(ended)
 
 
 def check_fields(program, chosen, p, folder):
@@ -51,10 +51,10 @@ def check_fields(program, chosen, p, folder):
     brought = check_wells.sources(p, history, instants[0]) if p["family"] == "wells" else None
     found = (check_contact.failures(p, instants) + check_balance.failures(p, instants, history, main=0, brought=brought) +
              check_pressure.failures(p, instants, history, strain_told(folder)))
-    if p["family"] == "heat":
-        found += check_heat.failures(p, instants, history, check_heat.told(folder))
-        if p["conduction"] == "mpfa" and check_heat.bounds(p, instants):
-            found += beyond_bounds_with_two_points(program, chosen, p, folder.parent)
+    for kind in ([check_heat.HEAT] if heat.is_in(p) else []) + ([check_heat.TRACER] if p["family"] == "tracer" else []):
+        found += check_heat.failures(p, instants, history, check_heat.told(folder, kind), kind)
+        if kind.conduction(p) == "mpfa" and check_heat.bounds(p, instants, kind=kind):
+            found += beyond_bounds_with_two_points(program, chosen, p, folder.parent, kind)
     return found + (check_wells.failures(p, instants, history) if p["family"] == "wells" else [])
 
 

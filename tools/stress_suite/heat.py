@@ -2,7 +2,7 @@
 
 import math
 
-from . import draws, physics
+from . import draws, physics, pressed
 
 ORDERS = {"together": "- solve: [pore, rock, conduit, contact, heat, water]",
           "flow first": "- solve: [pore, rock, conduit, contact]\n  - solve: [heat, water]",
@@ -38,10 +38,16 @@ def pressed_out(p):
     """The part of a volume of rock that is fluid which loads, pressures and heat of the scene can press out of it."""
     loads = [physics.stresses(p, physics.end(p) * i / 8) for i in range(9)] if p["sides"] == "stress" else [(p["stress"], p["stress"])]
     stress = CONCENTRATION * max(0.5 * (abs(x) + abs(y)) for x, y in loads)
-    stress += 3 * physics.bulk_modulus(p) * p["expansion"] * (max(given(p)) - min(given(p)))
+    warmed = max(given(p)) - min(given(p))
+    stress += 3 * physics.bulk_modulus(p) * p["expansion"] * warmed
     pressures = [p["initial"], *([p["initial"]] if p["boundary"] != "none" else []), *([p["boundary_pressure"]] if p["boundary"] == "across" else [])]
     pressure = max(pressures) - min(pressures) + stress
-    return p["alpha"] * (stress + p["alpha"] * pressure) / physics.in_plane_modulus(p) + p["storage"] * (max(pressures) - min(pressures))
+    pressing = 2 * pressed.of_rock(p) * warmed + p["storage"] * pressed.pressures(p, given(p))
+    return pressing + p["alpha"] * (stress + p["alpha"] * pressure) / physics.in_plane_modulus(p) + p["storage"] * (max(pressures) - min(pressures))
+
+
+def is_in(p):
+    return p["family"] == "heat" or pressed.is_in(p)
 
 
 def with_fluid(p):

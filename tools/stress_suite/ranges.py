@@ -2,7 +2,7 @@
 
 import random
 
-from . import buoyancy, faults, growing, heat, limited_wells, schemes, space, swaps
+from . import buoyancy, faults, growing, heat, limited_wells, schemes, space, swaps, tracer
 from .draws import choose, log_uniform, sometimes
 
 
@@ -82,9 +82,9 @@ def meeting(rng):
     }
 
 
-FAMILIES = ("separate", "meeting", "growing", "heat", "wells", "space", "faults")
+FAMILIES = ("separate", "meeting", "growing", "heat", "wells", "tracer", "space", "faults")
 IN_SPACE = {"space": space, "faults": faults}
-MORE = {"meeting": meeting, "heat": heat.draw, "wells": limited_wells.draw}  # what families draw besides
+MORE = {"meeting": meeting, "heat": heat.draw, "wells": limited_wells.draw, "tracer": tracer.draw}  # what families draw besides
 
 
 def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=schemes.MONOLITHIC, swapped=False, buoyant=False):
@@ -101,4 +101,4 @@ def draw(seed, number, family="separate", update=growing.UPDATES[0], scheme=sche
         p.update(MORE[family](rng))
     if buoyant:
         p.update(buoyancy.draw(seed, number))
-    return heat.with_fluid(p) if family == "heat" else p
+    return heat.with_fluid(p) if family == "heat" else tracer.with_pores(p) if family == "tracer" else p

@@ -2,7 +2,7 @@
 
 import math
 
-from . import buoyancy, faults, fractures, growing, heat, limited_wells, physics, schemes, space, swaps, twisted_mesh
+from . import buoyancy, faults, fractures, growing, heat, limited_wells, physics, schemes, space, swaps, tracer, twisted_mesh
 
 
 def box_and_mesh(p):
@@ -48,7 +48,7 @@ def wells(p):
 
 
 IN_SPACE = {"space": space, "faults": faults}
-MORE = {"heat": heat, "wells": limited_wells}  # components and couplers of families
+MORE = {"heat": heat, "wells": limited_wells, "tracer": tracer}  # components and couplers of families
 
 
 def write(p, folder):
@@ -78,7 +78,7 @@ def write(p, folder):
              "couplers:", "  - {type: biot, between: [pore, rock]}", "  - {type: wall_exchange, between: [pore, conduit]}",
              "  - {type: wall_traction, between: [rock, contact, conduit]}",
              "  - {type: aperture, between: [contact, conduit]}", *(more.couplers(p) if more else []), *buoyancy.couplers(p), "",
-             heat.schedule(p) if more is heat else schemes.schedule(p["solved"], ", wells" if more else ""), "",
+             more.schedule(p) if more in (heat, tracer) else schemes.schedule(p["solved"], ", wells" if more else ""), "",
              f"time: {{end: {physics.end(p)!r} s, step: {step!r} s}}", f"output: {{every: {step!r} s}}", ""]
     path = folder / "scene.yaml"
     path.write_text("\n".join(lines))

@@ -1,0 +1,73 @@
+// The value of what streams between cells carry: linear within the cell that they leave, and limited.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "components/capabilities/carried.hpp"
+#include "couplers/advection/streams.hpp"
+#include "framework/mesh/mesh.hpp"
+
+namespace sprekk::couplers {
+
+/// By how much the value at a face, or a ridge, differs from that of the cell whose fluid passes it. The gradient of a
+/// cell fits the values of its neighbours, and those that are prescribed on its sides, by least squares: it is exact
+/// for linear values. The change from the centre to the face is at most what the highest value around the cell is
+/// above its own, and at most what the lowest is below it (in a plane row of cells this is the limiter MC of van Leer
+/// 1977). So a cell higher or lower than all around has no gradient, and no face has a value beyond those around the
+/// cell: as fluid that leaves the highest of all cells has its value, and none that enters has a higher one, steps of
+/// backward Euler make no new extrema, however long they are.
+///
+/// In rock a change counts in the part of the outflow in a step that the cell holds (`weights`). Where a front passes
+/// several cells in a step, backward Euler smears it farther than upwinding does, and changes in full would only keep
+/// Newton's method from converging. In fractures, through which fluid flows many times in a step while the rock takes
+/// up what it carries, profiles are nearly steady, and changes count in full.
+class LimitedValues {
+ public:
+  /// In the rock. Neighbours do not lie behind fractures.
+  LimitedValues(const Mesh& mesh, const MatrixCarried& carried);
+  /// In the fractures. Neighbours do not lie behind crossings.
+  LimitedValues(const Mesh& mesh, const FractureCarried& carried);
+
+  /// To be called when the values on sides have been evaluated for a step.
+  void begin_step();
+
+  /// By how much the value at the face differs from that of the cell.
+  struct Change {
+    double value = 0;
+    std::vector<std::pair<int, double>> by_cells = {};  ///< the derivatives by values of cells
+  };
+  /// The weight of changes in each cell of the rock, at most 1; empty, meaning 1, in fractures. `capacity`: what each
+  /// cell holds per unit of the value; `amount`: what a unit of rate carries in the step. Collective.
+  Vector weights(const std::vector<Stream>& streams, const Vector& capacity, double amount) const;
+  /// The change of what the stream carries out of a cell, through a face or a ridge; none for others, and at crossings.
+  /// `values`: one a cell.
+  Change of(const Stream& stream, const Vector& values, const Vector& weights) const;
+
+ private:
+  /// A value from which a gradient follows: of a cell, or of a face or ridge on a side.
+  struct Link {
+    int cell, side;                  ///< one of them is none
+    Point where;                     ///< seen from the centre of the cell, m
+    Point gradient = Point::Zero();  ///< by the difference of this value from that of the cell, 1/m
+  };
+  struct Around {
+    std::vector<Link> links;
+    std::vector<int> cells;  ///< whose values bound those at faces
+  };
+
+  /// By the linear values, within their bounds.
+  Change within_bounds(int cell, const Point& to_face, const Vector& values) const;
+  bool is_given(int face) const { return rock_ ? rock_->side_value(face).has_value() : is_given_at_end(face); }
+  bool is_given_at_end(int ridge) const { return fractures_->end_value(ridge).has_value(); }
+  void look_around_in_rock();
+  void look_around_in_fractures();
+
+  const Mesh* mesh_;
+  const MatrixCarried* rock_ = nullptr;
+  const FractureCarried* fractures_ = nullptr;
+  std::vector<Around> around_;  ///< one a cell
+  Vector given_;                ///< of each face or ridge on a side with a value
+};
+
+}  // namespace sprekk::couplers
