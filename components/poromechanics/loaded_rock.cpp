@@ -42,7 +42,7 @@ void LoadedRock::offer_state(const std::string& variable, const StateField& sour
 /// Strains are zero in the initial state.
 void LoadedRock::take_initial_young() {
   if (!young_ || !young_->state().has_all()) return;
-  young_->evaluate(start_time_);
+  young_->evaluate({start_time_, 0, start_time_});
   initial_young_ = young_->values();
   ratio_ = Vector::Ones(mesh_.cell_count());
   stiffness_.set_initial_young_modulus(initial_young_);
@@ -66,7 +66,7 @@ bool LoadedRock::take_young() {
   const Excavation& excavation = stiffness_.excavation();
   std::vector<char> inside(mesh_.cell_count(), 1);
   for (int c = 0; c < mesh_.cell_count(); ++c) inside[c] = !excavation.is_removed(c);
-  if (!young_->evaluate(evaluated_for_.end, inside)) return false;
+  if (!young_->evaluate(evaluated_for_, inside)) return false;
   for (int c = 0; c < mesh_.cell_count(); ++c)
     if (inside[c]) ratio_[c] = young_->values()[c] / initial_young_[c];
   for (PoreLoad& load : loads_)
