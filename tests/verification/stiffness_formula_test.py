@@ -110,10 +110,11 @@ class StiffnessFormula(SceneRuns):
                     self.assert_displaced(self.run_scene(scene, *settings), known)
 
     def test_a_pressed_column_in_space(self):
+        """It is 1 m high, along z."""
         known = root(lambda e: UNIAXIAL * 10e9 * math.exp(-e / 2e-3) * e + 30e6, -5e-3, 0)
-        text = column("10 GPa*exp(-eps_v/2e-3)").replace("y: [0 m, 2 m]}", "y: [0 m, 2 m], z: [0 m, 1 m]}").replace("size: 0.5 m", "size: 1.5 m").replace("2 m]}, s: {of: rock.stress, at: [0.5 m, 1 m]}", "2 m, 0.5 m]}")
+        text = column("10 GPa*exp(-eps_v/2e-3)").replace("y: [0 m, 2 m]}", "y: [0 m, 2 m], z: [0 m, 1 m]}").replace("size: 0.5 m", "size: 1.5 m").replace("2 m]}, s: {of: rock.stress, at: [0.5 m, 1 m]}", "1 m, 1 m]}")
         text = text.replace("bottom: {displacement", "front: {displacement_normal: 0 m}, back: {displacement_normal: 0 m}, bottom: {displacement")
-        self.assert_displaced(self.run_scene(self.write(text)), known)
+        self.assertLess(abs(self.last(self.run_scene(self.write(text)), "u.z") / known - 1), 1e-9)
 
     def test_newtons_method_converges_as_for_smooth_equations(self):
         run = self.run_scene(self.write(column("10 GPa*exp(-eps_v/2e-3)")), "time.step=2 s")
