@@ -21,7 +21,7 @@ namespace sprekk::couplers {
 /// In rock a change counts in the part of the outflow in a step that the cell holds (`weights`). Where a front passes
 /// several cells in a step, backward Euler smears it farther than upwinding does, and changes in full would only keep
 /// Newton's method from converging. In fractures, through which fluid flows many times in a step while the rock takes
-/// up what it carries, profiles are nearly steady, and changes count in full.
+/// up what it carries, profiles are nearly steady: changes count in full, and are limited to half as much.
 class LimitedValues {
  public:
   /// In the rock. Neighbours do not lie behind fractures.
