@@ -106,25 +106,32 @@ SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
                    const std::vector<std::vector<char>>& owned, const std::vector<int>& first) {
   SPREKK_EXPECT(owned.size() == assembly.unknowns().size(), owned.size());
   SPREKK_EXPECT(first.size() == assembly.unknowns().size(), first.size());
-  std::vector<int> columns;
-  std::vector<double> values;
-  for (const Assembly::Block& block : assembly.blocks())
-    if (quantity.has(block.row))
-      for_entries(block, *block.in_sum, owned[block.row], [&](int, int column, double value) {
-        columns.push_back(first[block.column] + column);
-        values.push_back(value);
-      });
-  columns = parallel::gather(columns);
-  values = parallel::gather(values);
-  SPREKK_ASSERT(columns.size() == values.size(), columns.size(), values.size());
   struct Total {
     double value = 0, size = 0;
   };
-  std::map<int, Total> totals;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    Total& total = totals[columns[k]];
-    total.value += values[k];
-    total.size += std::abs(values[k]);
+  std::map<int, Total> totals;  // of this process's rows first
+  for (const Assembly::Block& block : assembly.blocks())
+    if (quantity.has(block.row))
+      for_entries(block, *block.in_sum, owned[block.row], [&](int, int column, double value) {
+        Total& total = totals[first[block.column] + column];
+        total.value += value;
+        total.size += std::abs(value);
+      });
+  if (parallel::size() > 1) {
+    std::vector<int> columns;
+    std::vector<double> values;
+    for (const auto& [column, total] : totals) {
+      columns.push_back(column);
+      values.insert(values.end(), {total.value, total.size});
+    }
+    columns = parallel::gather(columns);
+    values = parallel::gather(values);
+    SPREKK_ASSERT(2 * columns.size() == values.size(), columns.size(), values.size());
+    totals.clear();
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      totals[columns[k]].value += values[2 * k];
+      totals[columns[k]].size += values[2 * k + 1];
+    }
   }
   constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of summed terms
   SumRow sum;

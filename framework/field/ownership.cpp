@@ -1,8 +1,11 @@
 #include "framework/field/ownership.hpp"
 
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "framework/invariants.hpp"
+#include "framework/parallel/gathered.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -37,9 +40,21 @@ void exchange(const Mesh& mesh, Location location, int components, Vector& value
   SPREKK_EXPECT(values.size() == static_cast<Eigen::Index>(entity_count(mesh, location)) * components, values.size(),
                 components);
   if (parallel::size() == 1) return;
-  for (int i = 0; i < values.size() / components; ++i)
-    if (!is_owned(mesh, location, i)) values.segment(i * components, components).setZero();
-  parallel::sum(values);
+  const int entities = static_cast<int>(values.size()) / components;
+  std::vector<int> counts(parallel::size(), 0);  // of the values of each process
+  for (int i = 0; i < entities; ++i) counts[entity_rank(mesh, location, i)] += components;
+  Vector mine(counts[parallel::rank()]);
+  for (int i = 0, next = 0; i < entities; ++i)
+    if (is_owned(mesh, location, i))
+      mine.segment(std::exchange(next, next + components), components) = values.segment(i * components, components);
+  const Vector all = parallel::gathered(mine, counts);
+  std::vector<int> next(counts.size());
+  std::exclusive_scan(counts.begin(), counts.end(), next.begin(), 0);
+  for (int i = 0; i < entities; ++i) {
+    int& of_owner = next[entity_rank(mesh, location, i)];
+    values.segment(i * components, components) =
+        all.segment(std::exchange(of_owner, of_owner + components), components);
+  }
 }
 
 double sum_owned(const Mesh& mesh, Location location, const Vector& values) {
@@ -57,9 +72,10 @@ std::vector<char> nodes_to_discretize(const Mesh& mesh) {
   for (int c = 0; c < mesh.cell_count(); ++c)
     if (mesh.cell_rank[c] == parallel::rank())
       for (const int node : mesh.cell_nodes[c]) nodes[node] = 1;
-  for (const FractureCell& cell : mesh.fracture_cells)
-    for (const int face : cell.faces)
-      for (const int node : mesh.face_nodes[face]) nodes[node] = 1;
+  for (int i = 0; i < mesh.fracture_cell_count(); ++i)
+    if (is_owned(mesh, Location::fracture_cell, i))
+      for (const int face : mesh.fracture_cells[i].faces)
+        for (const int node : mesh.face_nodes[face]) nodes[node] = 1;
   return nodes;
 }
 

@@ -16,8 +16,8 @@ void exchange(const Mesh& mesh, Location location, int components, Vector& value
 /// The sum over all entities of values, one each, as their owners have them. Collective.
 double sum_owned(const Mesh& mesh, Location location, const Vector& values);
 
-/// The nodes whose interaction regions this process has to discretize: those of its own cells, and of all walls, so
-/// that the rows of its own cells and fracture cells are complete. Empty, meaning all, in a single process.
+/// The nodes whose interaction regions this process has to discretize: those of its own cells, and of both walls of its
+/// own fracture cells, so that the rows of these are complete. Empty, meaning all, in a single process.
 std::vector<char> nodes_to_discretize(const Mesh& mesh);
 
 }  // namespace sprekk

@@ -6,6 +6,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/unknown_names.hpp"
+#include "framework/parallel/gathered.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -19,10 +20,7 @@ Vector whole_vector(const std::vector<int>& rows, const Vector& mine, int unknow
   SPREKK_EXPECT(static_cast<Eigen::Index>(rows.size()) == mine.size(), rows.size(), mine.size());
   SPREKK_EXPECT(are_indices(rows, unknowns), unknowns);
   if (parallel::size() == 1) return mine;
-  Vector whole = Vector::Zero(unknowns);
-  for (std::size_t i = 0; i < rows.size(); ++i) whole[rows[i]] = mine[i];
-  parallel::sum(whole);
-  return whole;
+  return parallel::WholeVectors(rows, unknowns).whole(mine);
 }
 
 double componentwise_backward_error(const SparseMatrix& a, const Vector& y, const Vector& b, const Vector& r) {
@@ -63,7 +61,8 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
 
   const auto whole_solution = [&](Vector rows) {
     apply_inverse(rows);
-    return whole_vector(system.rows, rows, unknowns);
+    SPREKK_ASSERT(rows.size() == unknowns, rows.size(), unknowns);
+    return rows;
   };
   Vector y = whole_solution(b);
   Vector r = b - a * y;

@@ -2,6 +2,7 @@
 
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/meshing/distort_mesh.hpp"
+#include "framework/meshing/made_by_root.hpp"
 #include "framework/meshing/number_in_space.hpp"
 #include "framework/meshing/read_msh.hpp"
 #include "framework/meshing/regions.hpp"
@@ -19,7 +20,7 @@ RawMesh triangulate(const Geometry& geometry, const MeshOptions& options) {
   return unstructured_mesh(geometry, options);
 }
 
-Mesh finish(RawMesh raw, const Geometry& geometry, const MeshOptions& options) {
+RawMesh finished(RawMesh raw, const Geometry& geometry, const MeshOptions& options) {
   // In space validate_geometry refuses a distortion, and tetrahedra in corners stay.
   if constexpr (dimension == 2) avoid_single_cell_corners(raw);
   const std::vector<Point> places = raw.nodes;
@@ -27,18 +28,22 @@ Mesh finish(RawMesh raw, const Geometry& geometry, const MeshOptions& options) {
   // A distorted mesh is numbered like the mesh before the distortion. Structured meshes keep their numbers, which
   // follow the grid lines.
   if (geometry.is_imported() || options.kind == MeshOptions::Kind::unstructured) number_in_space(raw, places);
-  return build_mesh(raw);
+  return raw;
 }
 
 }  // namespace
 
 Mesh generate_mesh(const Geometry& geometry, const MeshOptions& options) {
   validate_geometry(geometry, options);
-  RawMesh raw = triangulate(geometry, options);
-  if (!geometry.is_imported()) return finish(std::move(raw), geometry, options);
+  bool is_made = false;
   try {
-    return finish(std::move(raw), geometry, options);
+    return build_mesh(made_by_root([&] {
+      RawMesh raw = triangulate(geometry, options);
+      is_made = true;
+      return finished(std::move(raw), geometry, options);
+    }));
   } catch (const InputError& error) {
+    if (!is_made || !geometry.is_imported()) throw;
     // Wrong triangles in a file are an error of the user, so the message names the file.
     throw InputError(geometry.file_origin, "cannot use the mesh file '" + geometry.file + "'", error.what());
   }

@@ -266,7 +266,11 @@ std::vector<Quantity> Model::quantities() const {
     if (!balance.is_closed) continue;
     quantities.push_back({name + "_balance_error", balance.unit, balance.stored + balance.outflow - balance.injected});
   }
-  for (const Quantity& quantity : quantities) require_agreement(quantity.name, {quantity.value});
+  std::vector<double> values;
+  for (const Quantity& quantity : quantities) values.push_back(quantity.value);
+  // One message for all; where they differ, the message names the first.
+  if (!parallel::is_same_everywhere(values))
+    for (const Quantity& quantity : quantities) require_agreement(quantity.name, {quantity.value});
   return quantities;
 }
 

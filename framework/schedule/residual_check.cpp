@@ -17,6 +17,33 @@ constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of
 /// large ones, shrink by 1e-16 in each iteration until they get there.
 constexpr double no_digits = 1e-154;
 
+/// What the processes know together of the rows of each unknown.
+struct OfUnknowns {
+  explicit OfUnknowns(std::size_t count)
+      : largest(Vector::Zero(static_cast<Eigen::Index>(count))),
+        magnitude(largest),
+        round_off_base(largest),
+        squares(largest),
+        rows(largest) {}
+  Vector largest, magnitude, round_off_base;  ///< largest residual, and of the terms
+  Vector squares, rows;  ///< sum of the squares of residuals, and number, of rows that are not fixed
+
+  /// One message for all maxima, and one for all sums. Collective.
+  void add_up() {
+    const Eigen::Index n = largest.size();
+    Vector maxima(3 * n), sums(2 * n);
+    maxima << largest, magnitude, round_off_base;
+    sums << squares, rows;
+    parallel::max(maxima);
+    parallel::sum(sums);
+    largest = maxima.head(n);
+    magnitude = maxima.segment(n, n);
+    round_off_base = maxima.tail(n);
+    squares = sums.head(n);
+    rows = sums.tail(n);
+  }
+};
+
 /// What the rounded exchanges of the rows of an unknown may add up to.
 double noise_of_rows(const Assembly& assembly, const BlockSystem& system, int unknown) {
   const std::vector<char>& owned = system.owned(unknown);
@@ -114,6 +141,7 @@ SizesOfRows sizes_of_rows(const Assembly& assembly, int unknown) {
 /// Whether each balance of an interface holds against the terms of its own row.
 void check_each_row(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
   if (!assembly.wants_derivatives()) return;
+  Vector worst_rows = Vector::Zero(static_cast<Eigen::Index>(assembly.unknowns().size()));
   for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
     const int unknown = static_cast<int>(u);
     const Field& field = *assembly.unknowns()[u];
@@ -123,22 +151,25 @@ void check_each_row(const Assembly& assembly, const BlockSystem& system, double 
       if (fixed.unknown == unknown) counts[fixed.row] = 0;
     const auto [terms, digits] = sizes_of_rows(assembly, unknown);
     const Vector& residual = assembly.residual(unknown);
-    double worst = 0;
+    double& worst = worst_rows[u];
     for (int row = 0; row < residual.size(); ++row) {
       const double allowed = looser_for_balances * tolerance * terms[row] + round_off * digits[row];
       if (counts[row] && terms[row] > 0 && std::abs(residual[row]) > allowed)
         worst = std::max(worst, std::abs(residual[row]) / terms[row]);
     }
-    worst = parallel::max(worst);
-    if (worst == 0) continue;
+  }
+  parallel::max(worst_rows);
+  for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
+    if (worst_rows[u] == 0) continue;
     check.each_row_holds = false;
-    check.row_error = std::max(check.row_error, worst);
+    check.row_error = std::max(check.row_error, worst_rows[u]);
     check.is_round_off[u] = 0;
   }
 }
 
 /// Whether the balances of conserved quantities hold against their throughput.
-void check_balances(const Assembly& assembly, const BlockSystem& system, double tolerance, ResidualCheck& check) {
+void check_balances(const Assembly& assembly, const BlockSystem& system, const OfUnknowns& all, double tolerance,
+                    ResidualCheck& check) {
   check.is_unbalanced.assign(assembly.unknowns().size(), 0);
   const Balances& balances = assembly.balances();
   for (const Balances::Quantity& quantity : balances.quantities()) {
@@ -149,7 +180,7 @@ void check_balances(const Assembly& assembly, const BlockSystem& system, double 
     Vector sums = Vector::Zero(count);
     for (const int u : quantity.unknowns) {
       const std::vector<char>& owned = system.owned(u);
-      const double noise = round_off * parallel::max(assembly.round_off_base(u));
+      const double noise = round_off * all.round_off_base[u];
       const Vector &residual = assembly.residual(u), &in_sum = balances.residual(u), &amounts = balances.throughput(u);
       for (int row = 0; row < residual.size(); ++row) {
         if (!owned[row]) continue;
@@ -184,13 +215,16 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
   const Vector owned = system.residual(assembly);
   SPREKK_ASSERT(owned.size() == static_cast<Eigen::Index>(system.rows().size()), owned.size());
   const std::vector<int>& rows = system.rows();
+  OfUnknowns all(assembly.unknowns().size());
+  Vector fixed_errors = all.largest;  // the same on every process
   std::size_t next = 0;
   for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
     const int end = system.first(static_cast<int>(u)) + assembly.unknowns()[u]->size();
-    double largest = 0, squares = 0, count = 0;
+    double largest = 0;
+    double &squares = all.squares[u], &count = all.rows[u];
     bool finite = true;
     std::set<int> fixed;
-    double fixed_error = 0;
+    double& fixed_error = fixed_errors[u];
     for (const Assembly::Fixed& row : assembly.fixed()) {
       if (row.unknown != static_cast<int>(u)) continue;
       fixed.insert(system.first(row.unknown) + row.row);
@@ -214,11 +248,14 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
         count += 1;
       }
     }
-    largest = parallel::max(finite ? largest : std::numeric_limits<double>::infinity());
-    const double magnitude = parallel::max(assembly.magnitude(static_cast<int>(u)));
-    const double noise = round_off * parallel::max(assembly.round_off_base(static_cast<int>(u))) + no_digits;
-    squares = parallel::sum(squares);
-    count = std::max(1.0, parallel::sum(count));
+    all.largest[u] = finite ? largest : std::numeric_limits<double>::infinity();
+    all.magnitude[u] = assembly.magnitude(static_cast<int>(u));
+    all.round_off_base[u] = assembly.round_off_base(static_cast<int>(u));
+  }
+  all.add_up();
+  for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
+    const double largest = all.largest[u], magnitude = all.magnitude[u], fixed_error = fixed_errors[u];
+    const double noise = round_off * all.round_off_base[u] + no_digits;
     if (!std::isfinite(largest) || !std::isfinite(magnitude)) {
       check.finite = check.rows_hold = false;
       check.equation = assembly.unknowns()[u]->name();
@@ -231,7 +268,7 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
     double relative = fixed_error;
     check.fixed_errors.push_back(fixed_error);
     check.magnitudes.push_back(magnitude);
-    check.mean_squares.push_back(is_round_off ? 0 : squares / count);
+    check.mean_squares.push_back(is_round_off ? 0 : all.squares[u] / std::max(1.0, all.rows[u]));
     if (!is_round_off) relative = std::max(relative, largest / magnitude);
     check.of_equations.emplace_back(assembly.unknowns()[u]->name(), relative);
     if (relative > check.largest) {
@@ -240,7 +277,7 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
     }
   }
   check_sums(assembly, system, tolerance, check);
-  check_balances(assembly, system, tolerance, check);
+  check_balances(assembly, system, all, tolerance, check);
   check_each_row(assembly, system, tolerance, check);
   SPREKK_ASSERT(check.is_round_off.size() == assembly.unknowns().size(), check.is_round_off.size());
   SPREKK_ASSERT(check.magnitudes.size() == check.mean_squares.size(), check.magnitudes.size());

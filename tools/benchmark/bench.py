@@ -19,6 +19,7 @@ from run_results import ROOT
 TABLES = {
     "discretization": "seconds of TPFA, MPFA, MPSA on unstructured triangles, beside PorePy's",
     "growth_steps": "where the seconds of section 5.2 go, by kind of step and by part, and those of section 5.1",
+    "scaling": "seconds, memory and messages of each of 1, 2 and 4 processes",
     "skip": "what scenes from flow alone to the full model have, and seconds beside dedicated minimal programs",
     "step": "where the seconds of a step of section 5.1 go, on uniform meshes",
 }
@@ -103,6 +104,8 @@ def main():
         growth_steps.measure(program, options.out, options.again)
     if "skip" in names:
         skip.measure(program, options.build / "bench_minimal", options.out, options.again)
+    if "scaling" in names:
+        subprocess.run([sys.executable, ROOT / "tools/benchmark/scaling.py", program, options.out / "scaling"], check=True)
     if "step" in names:
         step_times(program, options.out, options.again)
     results = cases.all_results(options.out)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "framework/invariants.hpp"
@@ -16,6 +17,7 @@
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/unknown_names.hpp"
+#include "framework/parallel/gathered.hpp"
 #include "framework/parallel/parallel.hpp"
 #include "framework/parallel/row_exchange.hpp"
 
@@ -50,7 +52,9 @@ struct MumpsSolver::Instance {
   std::vector<int> border;         ///< the numbers of the unknowns that are not eliminated
   std::vector<double> schur;       ///< their Schur complement, by rows
   std::vector<int> pivots;         ///< the unknowns, from 0 on, of which this process gets the solution
+  int pivots_of = 0;               ///< the icntl(9) of the solve that gave them; 0: none since the last factorization
   std::unique_ptr<parallel::RowExchange> solution_to_rows;  ///< from those to the rows of this process
+  std::unique_ptr<parallel::WholeVectors> solution_to_all;  ///< from those to all unknowns
   bool is_ordered = false;                                  ///< for these entries
 
   Instance() {
@@ -312,6 +316,7 @@ LinearReport MumpsSolver::factor_values() {
     mumps_->icntl(14) *= 2;
   }
   ++counts_.factorizations;
+  mumps_->pivots_of = 0;
   const int status = mumps_->status();
   if (status < 0) mumps_->icntl(14) = spare;
   if (status < 0)
@@ -339,7 +344,7 @@ LinearReport MumpsSolver::solve(const Vector& b_rows, Vector& x) {
   const Stopwatch watch(counts_.seconds_solve);
   ++counts_.solves;
   return refined_solve(
-      system_, scaled_, b_rows, [this](Vector& v) { apply_inverse(v, false); }, x);
+      system_, scaled_, b_rows, [this](Vector& v) { make_whole_inverse(v, false); }, x);
 }
 
 bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
@@ -363,7 +368,10 @@ void MumpsSolver::back_substitute(Eigen::MatrixXd& columns) {
   auto& data = mumps_->data;
   data.nrhs = static_cast<int>(columns.cols());
   if (parallel::size() > 1) {
-    back_substitute_distributed(columns);
+    const Eigen::MatrixXd solution = solution_at_pivots(columns);
+    if (!mumps_->solution_to_rows)
+      mumps_->solution_to_rows = std::make_unique<parallel::RowExchange>(mumps_->pivots, system_.rows);
+    columns = mumps_->solution_to_rows->moved(solution);
     return;
   }
   const Eigen::Index unknowns = columns.rows();
@@ -374,8 +382,10 @@ void MumpsSolver::back_substitute(Eigen::MatrixXd& columns) {
   columns.conservativeResize(unknowns, columns.cols());
 }
 
-void MumpsSolver::back_substitute_distributed(Eigen::MatrixXd& columns) {
+/// The rows of the solution at the unknowns that this process eliminates. Collective.
+Eigen::MatrixXd MumpsSolver::solution_at_pivots(Eigen::MatrixXd& columns) {
   auto& data = mumps_->data;
+  data.nrhs = static_cast<int>(columns.cols());
   std::vector<int> rows = system_.rows, solved(data.info[22]);
   for (int& row : rows) ++row;
   Eigen::MatrixXd solution(solved.size(), columns.cols());
@@ -387,26 +397,36 @@ void MumpsSolver::back_substitute_distributed(Eigen::MatrixXd& columns) {
   data.sol_loc = solution.data();
   mumps_->run(solve_for_columns);
   for (int& unknown : solved) --unknown;
-  if (parallel::any(!mumps_->solution_to_rows || solved != mumps_->pivots)) {
-    mumps_->solution_to_rows = std::make_unique<parallel::RowExchange>(solved, system_.rows);
+  // Those of the transposed matrix are others. Both stay as long as the factors.
+  const bool may_differ = std::exchange(mumps_->pivots_of, mumps_->icntl(9)) != mumps_->icntl(9);
+  if (may_differ && parallel::any(solved != mumps_->pivots)) {
     mumps_->pivots = std::move(solved);
+    mumps_->solution_to_rows.reset();
+    mumps_->solution_to_all.reset();
   }
-  columns = mumps_->solution_to_rows->moved(solution);
+  return solution;
 }
 
-/// A^-1 v, or A^-T v, on this process's rows.
-void MumpsSolver::apply_inverse(Vector& v, bool transposed) {
+/// The whole of A^-1 v, or of A^-T v, from this process's rows of v.
+void MumpsSolver::make_whole_inverse(Vector& v, bool transposed) {
   mumps_->icntl(9) = transposed ? 2 : 1;
   Eigen::MatrixXd column = v;
-  back_substitute(column);
-  v = column;
+  if (parallel::size() == 1) {
+    back_substitute(column);
+    v = column;
+    return;
+  }
+  const Vector solution = solution_at_pivots(column);
+  if (!mumps_->solution_to_all)  // without the unknowns of the border
+    mumps_->solution_to_all =
+        std::make_unique<parallel::WholeVectors>(mumps_->pivots, static_cast<int>(scaled_.matrix.cols()));
+  v = mumps_->solution_to_all->whole(solution);
 }
 
 /// The same for a vector that every process has all of.
 void MumpsSolver::apply_inverse_to_whole(Vector& v, bool transposed) {
-  Vector mine = v(system_.rows);
-  apply_inverse(mine, transposed);
-  v = whole_vector(system_.rows, mine, static_cast<int>(v.size()));
+  v = v(system_.rows).eval();
+  make_whole_inverse(v, transposed);
 }
 
 }  // namespace sprekk

@@ -46,8 +46,8 @@ class MumpsSolver final : public LinearSolver {
   LinearReport factor_values();
   LinearReport not_singular();
   void back_substitute(Eigen::MatrixXd& columns);
-  void back_substitute_distributed(Eigen::MatrixXd& columns);
-  void apply_inverse(Vector& v, bool transposed);
+  Eigen::MatrixXd solution_at_pivots(Eigen::MatrixXd& columns);
+  void make_whole_inverse(Vector& v, bool transposed);
   void apply_inverse_to_whole(Vector& v, bool transposed);
 
   std::unique_ptr<Instance> mumps_;

@@ -13,6 +13,7 @@
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/unknown_names.hpp"
+#include "framework/parallel/alone.hpp"
 
 namespace sprekk {
 namespace {
@@ -58,6 +59,7 @@ LinearReport UmfpackSolver::factor(const LinearSystem& system) {
   }
   if (system.local.rows() != system.local.cols())
     return LinearReport::failure("umfpack needs all rows of the system on this process");
+  const parallel::Alone with_all_rows;
   const Change change = last_.compare_and_remember(system);
   if (change == Change::nothing) {
     ++counts_.reused;
@@ -165,6 +167,7 @@ LinearReport UmfpackSolver::factor_values() {
 
 LinearReport UmfpackSolver::solve(const Vector& b_rows, Vector& x) {
   if (!last_report_.solved) return last_report_;
+  const parallel::Alone with_all_rows;
   const Stopwatch watch(counts_.seconds_solve);
   ++counts_.solves;
   return refined_solve(

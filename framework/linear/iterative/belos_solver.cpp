@@ -8,9 +8,9 @@
 
 #include "framework/linear/equilibration.hpp"
 #include "framework/linear/iterative/block_preconditioner.hpp"
-#include "framework/linear/refined_solve.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/trilinos_module/trilinos_module.hpp"
+#include "framework/parallel/gathered.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -33,6 +33,7 @@ class ScaledPreconditioner {
 
 struct BelosSolver::Data {
   std::vector<int> rows;
+  parallel::WholeVectors of_rows;  ///< from this process's rows to all unknowns
   int unknowns = 0;
   std::vector<int> block_ends;  ///< first unknown after every block, ascending
   Equilibrated scaled;
@@ -67,6 +68,7 @@ LinearReport BelosSolver::factor(const LinearSystem& system) {
     if (!scaled.mistake.empty()) return last_report_ = LinearReport::failure(scaled.mistake);
     data_->rows = system.rows;
     data_->unknowns = static_cast<int>(system.local.cols());
+    data_->of_rows = parallel::WholeVectors(system.rows, data_->unknowns);
     data_->block_ends = {data_->unknowns};
     for (const UnknownBlock& block : system.blocks)
       data_->block_ends.push_back(block.first + block.entities * block.components);
@@ -176,7 +178,7 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
       return LinearReport::failure(std::string("GMRES broke down: ") + error.what());
     }
     report.iterations += step.iterations;
-    y += whole_vector(data_->rows, step.x, data_->unknowns);
+    y += data_->of_rows.whole(step.x);
     r = b - data_->scaled.matrix * y;
     r_norm = std::sqrt(parallel::sum(r.squaredNorm()));
     ratio_before = measured.largest_ratio;

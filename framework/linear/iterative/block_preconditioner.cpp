@@ -5,7 +5,6 @@
 #include "framework/invariants.hpp"
 #include "framework/linear/iterative/cycle_with_zone.hpp"
 #include "framework/linear/iterative/without_small_entries.hpp"
-#include "framework/linear/refined_solve.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -17,6 +16,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
   elimination_.emplace(system, partition);
   local_owned_ = partition.local().owned;
   local_unknowns_ = static_cast<int>(partition.local().unknowns.size());
+  whole_local_ = parallel::WholeVectors(local_owned_, local_unknowns_);
 
   couplings_.resize(parts);
   for (int row_part = 0; row_part < parts; ++row_part) {
@@ -66,7 +66,7 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
 // Every process has A_FF^-1, so the right-hand side is gathered first.
 Vector BlockPreconditioner::solve_local(Vector owned) const {
   SPREKK_EXPECT(owned.size() == static_cast<Eigen::Index>(local_owned_.size()), owned.size(), local_owned_.size());
-  Vector whole = whole_vector(local_owned_, owned, local_unknowns_);
+  Vector whole = whole_local_.whole(owned);
   elimination_->solve(whole);
   for (std::size_t k = 0; k < local_owned_.size(); ++k) owned[k] = whole[local_owned_[k]];
   return owned;

@@ -8,6 +8,7 @@
 #include "framework/linear/iterative/local_elimination.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/linear/trilinos_module/trilinos_module.hpp"
+#include "framework/parallel/gathered.hpp"
 
 namespace sprekk {
 
@@ -36,6 +37,7 @@ class BlockPreconditioner {
   std::vector<std::unique_ptr<Multigrid>> cycles_;  ///< of every bulk part
   std::optional<LocalElimination> elimination_;
   std::vector<int> local_owned_;
+  parallel::WholeVectors whole_local_;
   int local_unknowns_ = 0;
 };
 

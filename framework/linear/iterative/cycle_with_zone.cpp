@@ -6,7 +6,6 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/gather_entries.hpp"
-#include "framework/linear/refined_solve.hpp"
 
 namespace sprekk {
 
@@ -29,6 +28,7 @@ CycleWithZone::CycleWithZone(const SparseMatrix& rows, const std::vector<int>& i
     for (SparseMatrix::InnerIterator entry(rows, static_cast<int>(row)); entry; ++entry)
       if (const int column = place_of(entry.col()); column >= 0) entries.emplace_back(place, column, entry.value());
   }
+  whole_zone_ = parallel::WholeVectors(owned_, zone_size_);
   LinearSystem alone;
   alone.local = gather_entries(entries, zone_size_, zone_size_);
   alone.rows.resize(zone_size_);
@@ -39,7 +39,7 @@ CycleWithZone::CycleWithZone(const SparseMatrix& rows, const std::vector<int>& i
 }
 
 void CycleWithZone::add_answer_of_zone(const Vector& r, Vector& x) const {
-  Vector whole = whole_vector(owned_, r(owners_), zone_size_);
+  Vector whole = whole_zone_.whole(r(owners_));
   zone_.solve_unchecked(whole);
   x(owners_) += whole(owned_);
 }

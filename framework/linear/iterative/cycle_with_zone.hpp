@@ -6,6 +6,7 @@
 
 #include "framework/linear/direct/umfpack_solver.hpp"
 #include "framework/linear/trilinos_module/trilinos_module.hpp"
+#include "framework/parallel/gathered.hpp"
 
 namespace sprekk {
 
@@ -29,6 +30,7 @@ class CycleWithZone final : public Multigrid {
   std::vector<int> owned_;   ///< places in the zone of those whose rows this process holds
   std::vector<int> owners_;  ///< their places among this process's rows
   int zone_size_;
+  parallel::WholeVectors whole_zone_;
   UmfpackSolver zone_;
 };
 

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "framework/invariants.hpp"
-#include "framework/linear/refined_solve.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -174,7 +173,7 @@ void BulkSchurComplement::subtract(const BulkSplitting& split, LinearSolver& sol
     solver.solve_columns(answer);
     mine -= answer;
   }
-  bulk = whole_vector(split.bulk_rows, mine, split.bulk_size());
+  bulk = split.whole_bulk(mine);
 }
 
 }  // namespace sprekk

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "framework/invariants.hpp"
-#include "framework/linear/refined_solve.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -69,16 +68,20 @@ UnknownBlock chosen_entities(const UnknownBlock& block, const std::vector<char>&
 /// `rows`: the unknowns of the residuals, ascending. Collective.
 double largest_by_block(const std::vector<UnknownBlock>& blocks, const std::vector<int>& rows, const Vector& residual,
                         const Vector& size) {
-  double largest = 0;
-  for (const UnknownBlock& block : blocks) {
+  Vector errors = Vector::Zero(static_cast<Eigen::Index>(blocks.size())), scales = errors;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const UnknownBlock& block = blocks[k];
     const auto begin = std::ranges::lower_bound(rows, block.first);
     const auto count = std::ranges::lower_bound(rows, block.first + block.entities * block.components) - begin;
-    const auto largest_of = [&](const Vector& v) {
-      return parallel::max(count == 0 ? 0.0 : v.segment(begin - rows.begin(), count).lpNorm<Eigen::Infinity>());
-    };
-    const double error = largest_of(residual), scale = largest_of(size);
-    if (error > 0) largest = std::max(largest, error / scale);
+    if (count == 0) continue;
+    errors[k] = residual.segment(begin - rows.begin(), count).lpNorm<Eigen::Infinity>();
+    scales[k] = size.segment(begin - rows.begin(), count).lpNorm<Eigen::Infinity>();
   }
+  parallel::max(errors);
+  parallel::max(scales);
+  double largest = 0;
+  for (Eigen::Index k = 0; k < errors.size(); ++k)
+    if (errors[k] > 0) largest = std::max(largest, errors[k] / scales[k]);
   return largest;
 }
 
@@ -123,6 +126,8 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
     }
   rows_ = system.rows;
   for (const int row : rows_) (is_local_[row] ? local_rows : bulk_rows).push_back(place_[row]);
+  whole_bulk_ = parallel::WholeVectors(bulk_rows, bulk);
+  whole_local_ = parallel::WholeVectors(local_rows, local);
   split_own_rows(bulk, local);
   split_rows_of_all(bulk, local);
   SPREKK_ASSERT(is_well_formed(bb.matrix) && is_well_formed(ff.matrix), bulk, local);
@@ -231,7 +236,7 @@ Vector BulkSplitting::local_part(const Vector& rows) const {
   Eigen::Index next = 0;
   for (std::size_t i = 0; i < rows_.size(); ++i)
     if (is_local_[rows_[i]]) mine[next++] = rows[i];
-  return whole_vector(local_rows, mine, local_size());
+  return whole_local_.whole(mine);
 }
 
 Vector BulkSplitting::joined(const Vector& bulk, const Vector& local) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "framework/linear/linear_solver.hpp"
+#include "framework/parallel/gathered.hpp"
 
 namespace sprekk {
 
@@ -42,6 +43,8 @@ class BulkSplitting {
   Vector local_part(const Vector& rows) const;
   /// A vector of all unknowns, from all of B and F.
   Vector joined(const Vector& bulk, const Vector& local) const;
+  /// All of B, from this process's rows.
+  Vector whole_bulk(const Vector& mine) const { return whole_bulk_.whole(mine); }
   /// The matrices as systems of their own; that of F is whole.
   LinearSystem bulk_system() const;
   LinearSystem local_system(SparseMatrix matrix) const;
@@ -82,6 +85,7 @@ class BulkSplitting {
   std::vector<int> place_;           ///< of every unknown: its number among those of its kind
   std::vector<UnknownBlock> blocks_, bulk_blocks_, local_blocks_;
   std::vector<int> sums_;
+  parallel::WholeVectors whole_bulk_, whole_local_;
 };
 
 }  // namespace sprekk

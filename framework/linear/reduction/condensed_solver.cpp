@@ -11,6 +11,7 @@
 #include "framework/linear/reduction/floating_parts.hpp"
 #include "framework/linear/stopwatch.hpp"
 #include "framework/parallel/alone.hpp"
+#include "framework/parallel/gathered.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -260,8 +261,7 @@ LinearReport CondensedSolver::solve_reduced(const Vector& b, Vector& x) {
   if (!all_say(report.solved))
     return report.solved ? LinearReport::failure("another process could not solve for the unknowns on fractures")
                          : report;
-  if (!parallel::is_root()) x.setZero();
-  parallel::sum(x);
+  parallel::take_from_root(x);
   return report;
 }
 
