@@ -26,7 +26,7 @@ std::vector<double> fluxes(const JunctionFluxes& at, const std::vector<double>& 
         const JunctionFluxes::Flux flux = at.flux(place);
         if (flux.parts.empty() == wants_parts) continue;
         if (!wants_parts) known[place] = flux.conductance.value * (potentials[i] - potentials[j]);
-        for (const auto& part : flux.parts) known[place] += part.share.value * known[part.point - 100];
+        for (const auto& part : flux.parts) known[place] += part.share.value * known[part.ridge - 100];
       }
   }
   return known;
