@@ -18,10 +18,6 @@ constexpr double noise = 1e-5;                ///< of that norm: steps of the fa
 constexpr int patience_with_noise = 4;        ///< trials without progress, below it
 constexpr int patience = 8;                   ///< trials without progress
 constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
-constexpr double closed = 2.4;                ///< rad, of (K_I, K_II): beyond, K_II says nothing of the direction
-constexpr double shortest_part = 0.1;         ///< of such a segment: what is tried next
-constexpr double margin = 2e-3;               ///< of a bracket: a length at one of its ends would not narrow it
-constexpr double closed_bracket = 2e-3;       ///< of its longer length
 constexpr double of_meshes = 0.01;            ///< ln K: ten times what it differs by between two meshes
 constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
 constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
@@ -43,15 +39,12 @@ Front::Front(std::vector<FrontTip> tips, const std::vector<FrontState>& without_
       was_unstable_(tips_.size(), 0),
       length_(tips_.size(), 0),
       angle_(tips_.size(), 0),
-      last_(without_growth),
-      start_(without_growth) {
+      last_(without_growth) {
   SPREKK_EXPECT(without_growth.size() == tips_.size(), without_growth.size(), tips_.size());
   SPREKK_EXPECT(options_.increment > 0 && options_.shortest > 0, options_.increment, options_.shortest);
   for (int i = 0; i < count(); ++i) {
     length_[i] = tips_[i].covered;
     angle_[i] = tips_[i].angle;
-    brackets_.push_back({{0, excess(start_[i])}, {}, {}, {}, {}});
-    forget_angles(i);
   }
   make_jacobian();
   is_warm_ = slopes.rows() == 2 * count();
@@ -131,19 +124,28 @@ double Front::first_advance(int i, const FrontState& state) const {
   return slope < 0 ? std::clamp(excess(state) / -slope, least, first_part) : first_part;
 }
 
-/// The first trial of a tip: a new segment is that which the fine level has found; others go on with their speed.
+/// The first trial of a tip: from its speed, or else from the expansion of a short kink.
 void Front::begin(int i, const FrontState& state) {
   grows_[i] = is_laid_[i] = 1;
   FrontTip& tip = tips_[i];
-  if (is_new(i)) {
-    SPREKK_EXPECT(tip.first_length > 0, i);
+  const double half = 0.5 * options_.increment;
+  if (tip.first_length > 0) {
     length_[i] = tip.first_length;
     angle_[i] = tip.first_angle;
     return;
   }
-  const double expected = tip.speed > 0 ? tip.speed * dt_ : first_advance(i, state) * options_.increment;
-  length_[i] = std::min(tip.longest, tip.covered + std::min(expected, options_.increment));
-  angle_[i] = tip.ahead + std::clamp(tip.turning * (length_[i] - tip.covered), -largest_turn, largest_turn);
+  if (!is_new(i)) {
+    const double expected = tip.speed > 0 ? tip.speed * dt_ : first_advance(i, state) * options_.increment;
+    length_[i] = std::min(tip.longest, tip.covered + std::min(expected, options_.increment));
+    angle_[i] = tip.ahead + std::clamp(tip.turning * (length_[i] - tip.covered), -largest_turn, largest_turn);
+    return;
+  }
+  const double low = options_.shortest, high = std::min(tip.longest, tip.speed > 0 ? options_.increment : half);
+  length_[i] = tip.speed > 0 ? std::clamp(tip.speed * dt_, low, high)
+                             : longest_overloaded_kink(state.sifs, tip.toughness, low, high);
+  angle_[i] = tip.angle + local_symmetry_angle(state.sifs, length_[i]);
+  const double slope = log_slope_of_kink(state.sifs, length_[i]);
+  if (std::isfinite(slope)) slopes_.jacobian(2 * i, 2 * i) = std::min(slope * options_.increment, first_slope);
 }
 
 void Front::learn(const std::vector<FrontState>& states) {
@@ -151,7 +153,6 @@ void Front::learn(const std::vector<FrontState>& states) {
   SPREKK_EXPECT(static_cast<int>(states.size()) == count(), states.size(), count());
   ++trials_;
   const Eigen::VectorXd found = residual(states);
-  if (trials_ < options_.most_trials && shorten_closed(states)) return;
   if (is_other_mesh_) leave_mesh(found);
   update_jacobian(found);
   last_ = states;
@@ -166,14 +167,12 @@ void Front::learn(const std::vector<FrontState>& states) {
       continue;
     }
     const double load = counted[2 * i];
-    const bool is_shortest = is_new(i) && length_[i] <= shortest(i) * (1 + at_limit) && tells_of_length(i, found);
-    if (is_shortest && (options_.holds_state ? excess(states[i]) < -options_.load_tolerance : load < 0))
-      continue;  // at rest, whatever its direction
-    const double off = is_held(2 * i, found) ? 0 : std::abs(load),
-                 shear = is_held(2 * i + 1, found) ? 0 : std::abs(found[2 * i + 1]);
-    worst_ = std::max(worst_, off);
-    worst_shear_ = std::max(worst_shear_, shear);
-    if (off > options_.load_tolerance || shear > options_.direction_tolerance) is_met = false;
+    const bool is_shortest = is_new(i) && length_[i] <= shortest(i) * (1 + at_limit);
+    if (is_shortest && load < 0) continue;  // at rest, whatever its direction
+    worst_ = std::max(worst_, std::abs(load));
+    worst_shear_ = std::max(worst_shear_, std::abs(found[2 * i + 1]));
+    if (std::abs(load) > options_.load_tolerance || std::abs(found[2 * i + 1]) > options_.direction_tolerance)
+      is_met = false;
   }
   if (is_met) {
     verdict_ = Verdict::found;
@@ -207,108 +206,6 @@ void Front::learn_of_others(const std::vector<FrontState>& states) {
   }
 }
 
-/// With the state held the load falls from that at the start, and lengths lie between one that is too short and one
-/// that is too long.
-void Front::learn_length(int tip, double excess) {
-  Bracket& known = brackets_[tip];
-  const Length here{length_[tip], excess};
-  std::optional<Length>& third = known.third;
-  if (excess > 0) {
-    if (known.longer) third = known.shorter;
-    known.shorter = here;
-  } else {
-    if (known.longer) third = known.longer;
-    known.longer = here;
-  }
-  // Its ends were found in other directions, and one of them is no longer right.
-  if (!known.longer || known.longer->length - known.shorter.length >= closed_bracket * known.longer->length) return;
-  third.reset();
-  if (excess > 0)
-    known.longer.reset();
-  else
-    known.shorter = {0, Front::excess(start_[tip])};
-}
-
-/// m; the secant from the start, or the parabola of the length over the excess through three lengths, as in Brent's
-/// method.
-double Front::length_between(int tip) const {
-  const auto& [shorter, longer, third, left, right] = brackets_[tip];
-  if (!longer) {
-    const double fall = excess(start_[tip]) - shorter.excess;
-    return fall > 0 ? std::min(tips_[tip].longest, shorter.length * (1 + shorter.excess / fall)) : tips_[tip].longest;
-  }
-  const double a = shorter.excess, b = longer->excess, width = longer->length - shorter.length;
-  double next = shorter.length + width * a / (a - b);
-  if (third && third->excess != a && third->excess != b) {
-    const double c = third->excess;
-    const double through_three = shorter.length * b * c / ((a - b) * (a - c)) +
-                                 longer->length * a * c / ((b - a) * (b - c)) +
-                                 third->length * a * b / ((c - a) * (c - b));
-    if (through_three > shorter.length && through_three < longer->length) next = through_three;
-  }
-  return std::clamp(next, shorter.length + margin * width, longer->length - margin * width);
-}
-
-/// The right direction differs from the estimate by an error that vanishes with the length.
-void Front::turn_with_length(int tip, double length) {
-  if (tips_[tip].has_angle || length == length_[tip]) return;
-  forget_angles(tip);
-  const auto estimate = [&](double l) { return local_symmetry_angle(start_[tip].sifs, l, tips_[tip].largest_turn); };
-  const double turn = angle_[tip] - tips_[tip].angle;
-  angle_[tip] =
-      tips_[tip].angle + std::clamp(estimate(length) + (turn - estimate(length_[tip])) * length / length_[tip],
-                                    -tips_[tip].largest_turn, tips_[tip].largest_turn);
-}
-
-void Front::forget_angles(int tip) {
-  brackets_[tip].left = {tips_[tip].angle - tips_[tip].largest_turn, 0};
-  brackets_[tip].right = {tips_[tip].angle + tips_[tip].largest_turn, 0};
-}
-
-/// K_II grows with the angle of a segment, as long as its length stays. It does so, too, where walls close and Newton's
-/// step means nothing. Returns false where no angle is left.
-bool Front::turn_between(int tip, double tried) {
-  const Sifs& sifs = last_[tip].sifs;
-  Turn &left = brackets_[tip].left, &right = brackets_[tip].right;
-  (sifs.k2 < 0 ? left : right) = {tried, sifs.k2};
-  if (left.angle >= right.angle) return false;
-  const bool is_between = angle_[tip] > left.angle && angle_[tip] < right.angle, has_ends = left.k2 < 0 && right.k2 > 0;
-  if (is_between && (sifs.k1 > 0 || !has_ends)) return true;
-  const double part = has_ends ? left.k2 / (left.k2 - right.k2) : 0.5;
-  angle_[tip] = tried + std::clamp(left.angle + part * (right.angle - left.angle) - tried, -largest_turn, largest_turn);
-  return true;
-}
-
-/// The estimate of the direction is exact for short kinks.
-void Front::shorten(int tip, double part, double excess) {
-  brackets_[tip].longer = Length{length_[tip], excess};
-  length_[tip] = std::max(shortest(tip), part * length_[tip]);
-  angle_[tip] = tips_[tip].angle + local_symmetry_angle(start_[tip].sifs, length_[tip], tips_[tip].largest_turn);
-  forget_angles(tip);
-  before_place_.resize(0);
-  best_.reset();
-}
-
-bool Front::may_shorten(int tip) const {
-  return is_new(tip) && !tips_[tip].has_length && !tips_[tip].has_angle &&
-         length_[tip] > shortest(tip) * (1 + at_limit);
-}
-
-/// A long kink in a wrong direction is closed, or nearly, and tells nothing of the right one. Whether the next trial
-/// has a shorter one.
-bool Front::shorten_closed(const std::vector<FrontState>& states) {
-  bool is_shorter = false;
-  for (int i = 0; i < count(); ++i) {
-    const Sifs& sifs = states[i].sifs;
-    if (!grows_[i] || !may_shorten(i) || std::abs(std::atan2(sifs.k2, sifs.k1)) < closed) continue;
-    const double before = excess(start_[i]), here = excess({{}, sifs.k1 / tips_[i].toughness});
-    const double part = here < 0 ? std::clamp(before / (before - here), shortest_part, longest_part) : longest_part;
-    shorten(i, part, std::min(here, -options_.load_tolerance));
-    is_shorter = true;
-  }
-  return is_shorter;
-}
-
 /// Trials on the last mesh are not repeated on this one: none is the best. Their difference from this one tells a slope
 /// where it is large beside the error of a mesh.
 void Front::leave_mesh(const Eigen::VectorXd& residual) {
@@ -324,12 +221,9 @@ void Front::leave_mesh(const Eigen::VectorXd& residual) {
 double Front::norm(const Eigen::VectorXd& residual) const {
   const FrontEquations front = equations(residual);
   const Eigen::VectorXd counted = count_loads(residual, front);
-  const std::vector<int> held = held_unknowns(residual);
   double norm = of_difference_ * front.difference.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < count(); ++i)
-    for (const int unknown : {2 * i, 2 * i + 1})
-      if (grows_[i] && std::ranges::find(held, unknown) == held.end())
-        norm = std::max(norm, (unknown % 2 == 0 ? 1 : of_direction) * std::abs(counted[unknown]));
+    if (grows_[i]) norm = std::max({norm, std::abs(counted[2 * i]), of_direction * std::abs(residual[2 * i + 1])});
   return norm;
 }
 
@@ -346,11 +240,9 @@ bool Front::is_met_but_for_noise(const Eigen::VectorXd& residual) const {
 /// step is shorter.
 Eigen::VectorXd Front::return_to_best(const Eigen::VectorXd& residual) {
   const double now = norm(residual);
-  const std::vector<int> held = held_unknowns(residual);
-  if (best_ && best_->held != held) best_.reset();                          // another norm
-  if (!best_ || now <= much_worse * best_->norm || options_.holds_state) {  // lengths are kept between two others
+  if (!best_ || now <= much_worse * best_->norm) {
     if (!best_ || now < gain * best_->norm) last_gain_ = trials_;
-    if (!best_ || now < best_->norm) best_ = Best{place(), residual, now, held};
+    if (!best_ || now < best_->norm) best_ = Best{place(), residual, now};
     part_ = 1;
     return residual;
   }

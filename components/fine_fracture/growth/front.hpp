@@ -35,9 +35,6 @@ struct FrontTip {
   bool goes_on = false;         ///< grows in the first trial, whatever its load
   /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
   double first_length = 0, first_angle = 0;
-  /// Whether the first trial's length, or its angle, is the one to take: then it is not searched for.
-  bool has_length = false, has_angle = false;
-  double largest_turn = 1.5;  ///< rad, of a new segment from `angle`
 };
 
 /// What is known of the tips after a trial step: the factors in the frame of the last segment.
@@ -59,7 +56,6 @@ struct FrontOptions {
   double shortest = 0;                                            ///< m, of a new segment
   double longest_jump = std::numeric_limits<double>::infinity();  ///< m, of a tip in one step
   int most_trials = 20;                                           ///< of a step, before it is cut: 8 to 10 are needed
-  bool holds_state = false;  ///< each tip alone; one above its toughness at its longest goes on in another search
 };
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
@@ -67,9 +63,6 @@ struct FrontOptions {
 /// by a quasi-Newton method for the tips that grow; which do is decided anew after each trial. K of several tips is
 /// known to the error of the mesh only: of all fronts within this error the one with the most equal advances is sought
 /// (most_equal_front.hpp). Of several solutions it seeks the one nearest to the start of the step.
-///
-/// With the state held it finds one increment of one tip (IncrementSearch), whose load at length 0 is known: lengths
-/// are kept between one that is too short and one that is too long.
 ///
 ///   Front front(…, states of the trial without growth, …);
 ///   while (front.verdict() == again) front.learn(states of the trial with lengths(), angles());
@@ -101,7 +94,6 @@ class Front {
   /// After a front was found: the states of the same trial, with those of tips that were not evaluated before. If one
   /// of these has to grow, the search goes on.
   void learn_of_others(const std::vector<FrontState>& states);
-  static double excess(const FrontState& state);  ///< ln(load), or what takes its place
   Verdict verdict() const { return verdict_; }
   int trials() const { return trials_; }
   /// Whether a front was found to 1e-5 of K and 1e-4 of K_II/K_I only, since trials came no nearer to it.
@@ -120,6 +112,7 @@ class Front {
   double shortest(int tip) const { return std::max(options_.shortest, tips_[tip].least); }
   /// The length of a last segment that does not grow.
   double least(int tip) const { return is_new(tip) ? shortest(tip) : tips_[tip].covered; }
+  static double excess(const FrontState& state);  ///< ln(load), or what takes its place
   double first_advance(int tip, const FrontState& state) const;
   void begin(int tip, const FrontState& state);
   void set_turn_slope(int tip, const Sifs& sifs);
@@ -154,27 +147,11 @@ class Front {
   void begin_beside_front(int tip);
   /// Newton's step in the unknowns `free`.
   Eigen::VectorXd newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual);
-  bool is_at_longest(int tip, const Eigen::VectorXd& residual) const;
-  /// Whether the unknown stays as it is, whatever its residual.
-  bool is_held(int unknown, const Eigen::VectorXd& residual) const;
-  bool tells_of_length(int tip, const Eigen::VectorXd& residual) const;
-  /// What stays in the next step.
-  std::vector<int> held_unknowns(const Eigen::VectorXd& residual) const;
-  /// Newton's step in the unknowns `free` but for these, which stay.
-  Eigen::VectorXd step_without(const std::vector<int>& held, const std::vector<int>& free,
-                               const Eigen::VectorXd& residual);
+  static bool turns_far(const Eigen::VectorXd& move);
+  Eigen::VectorXd step_with_held_turns(const std::vector<int>& free, const Eigen::VectorXd& residual,
+                                       const Eigen::VectorXd& full);
   std::optional<Eigen::VectorXd> step_to_linear_front(const std::vector<int>& free,
                                                       const Eigen::VectorXd& residual) const;
-  bool shorten_closed(const std::vector<FrontState>& states);
-  bool may_shorten(int tip) const;
-  void shorten(int tip, double part, double excess);
-  void forget_angles(int tip);
-  bool turn_between(int tip, double tried);
-  void step_between(int tip, std::optional<double> excess);
-  bool has_bracket(int tip) const { return options_.holds_state && is_new(tip); }
-  void learn_length(int tip, double excess);
-  double length_between(int tip) const;
-  void turn_with_length(int tip, double length);
   double norm(const Eigen::VectorXd& residual) const;
   bool is_met_but_for_noise(const Eigen::VectorXd& residual) const;
   /// The residual to go on from: that of the last trial, or of the best one if the last was much worse.
@@ -187,29 +164,15 @@ class Front {
   std::vector<char> grows_, is_laid_, is_stopped_;
   std::vector<char> was_unstable_;  ///< tips that were pushed on once, since their load did not fall with their length
   std::vector<double> length_, angle_;
-  std::vector<FrontState> last_, start_;
+  std::vector<FrontState> last_;
   LearntSlopes slopes_;  ///< of residual() by (length/increment, angle), per tip
   Eigen::VectorXd before_place_, before_residual_;
   /// The best trial so far with the tips that grow now.
   struct Best {
     Eigen::VectorXd place, residual;
     double norm;
-    std::vector<int> held;
   };
   std::optional<Best> best_;
-  /// With the state held: lengths (m) of a new segment, and the excess at their ends, in the right direction.
-  struct Length {
-    double length, excess;
-  };
-  struct Turn {
-    double angle, k2;  ///< rad, and K_II at the end, Pa sqrt(m); 0: not known
-  };
-  struct Bracket {
-    Length shorter;
-    std::optional<Length> longer, third;
-    Turn left, right;  ///< between which K_II vanishes with the present length
-  };
-  std::vector<Bracket> brackets_;
   bool is_warm_ = false;  ///< whether the Jacobian comes from an earlier search: a warm start
   bool is_other_mesh_ = false, is_rough_ = false;
   static constexpr double most_of_difference = 30;  ///< slopes of loads, 0.3, over those of H, 0.01

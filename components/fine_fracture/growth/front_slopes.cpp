@@ -19,10 +19,8 @@ double shear(const FrontState& state) { return std::atan2(state.sifs.k2, state.s
 
 double Front::excess(const FrontState& state) {
   if (state.excess) return *state.excess;
-  // The logarithm, continued by its tangent where K_eq comes near to 0.
-  constexpr double switch_over = 0.3;
-  const double load = std::max(switch_over, state.load);
-  return std::log(load) + std::min(0.0, state.load - switch_over) / switch_over;
+  constexpr double least = 1e-3;  // for the logarithm of a load that is zero
+  return std::log(std::max(least, state.load));
 }
 
 double Front::turn_slope_of(int tip, const Sifs& sifs, double length) const {

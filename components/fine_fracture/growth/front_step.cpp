@@ -45,43 +45,26 @@ Eigen::VectorXd Front::newton_step(const std::vector<int>& free, const Eigen::Ve
   return FullPivotingLu(matrix).solve(-count_loads(residual, front)(free));
 }
 
-bool Front::is_at_longest(int tip, const Eigen::VectorXd& residual) const {
-  return options_.holds_state && residual[2 * tip] > 0 && length_[tip] >= tips_[tip].longest * (1 - at_limit);
+/// Whether a tip would turn further than any turn for which the slopes of K_II hold.
+bool Front::turns_far(const Eigen::VectorXd& move) {
+  for (Eigen::Index a = 1; a < move.size(); a += 2)
+    if (std::abs(move[a]) > quarter_turn) return true;
+  return false;
 }
 
-bool Front::is_held(int unknown, const Eigen::VectorXd& residual) const {
-  const int tip = unknown / 2;
-  return unknown % 2 == 1 ? tips_[tip].has_angle : tips_[tip].has_length || is_at_longest(tip, residual);
-}
-
-/// A new segment in a wrong direction does not tell whether it is too long: K_eq is K (1 + phi^2), phi =
-/// atan(K_II/K_I), with K in the right one, to second order.
-bool Front::tells_of_length(int tip, const Eigen::VectorXd& residual) const {
-  const double phi = residual[2 * tip + 1];
-  return !is_new(tip) || !options_.holds_state || tips_[tip].has_angle ||
-         std::abs(phi) <= options_.direction_tolerance || phi * phi <= std::abs(residual[2 * tip]);
-}
-
-std::vector<int> Front::held_unknowns(const Eigen::VectorXd& residual) const {
-  std::vector<int> held;
-  for (int i = 0; i < count(); ++i) {
-    if (grows_[i] && (is_held(2 * i, residual) || !tells_of_length(i, residual))) held.push_back(2 * i);
-    if (grows_[i] && is_held(2 * i + 1, residual)) held.push_back(2 * i + 1);
-  }
-  return held;
-}
-
-Eigen::VectorXd Front::step_without(const std::vector<int>& held, const std::vector<int>& free,
-                                    const Eigen::VectorXd& residual) {
+/// The step of lengths with the directions of these tips as they are.
+Eigen::VectorXd Front::step_with_held_turns(const std::vector<int>& free, const Eigen::VectorXd& residual,
+                                            const Eigen::VectorXd& full) {
   const Eigen::MatrixXd learnt = slopes_.jacobian;
-  Eigen::VectorXd left = residual;
-  for (const int unknown : held) {
-    slopes_.jacobian.row(unknown).setZero();
-    slopes_.jacobian.col(unknown).setZero();
-    slopes_.jacobian(unknown, unknown) = 1;
-    left[unknown] = 0;
+  Eigen::VectorXd held = residual;
+  for (std::size_t a = 1; a < free.size(); a += 2) {
+    if (std::abs(full[static_cast<Eigen::Index>(a)]) <= quarter_turn) continue;
+    slopes_.jacobian.row(free[a]).setZero();
+    slopes_.jacobian.col(free[a]).setZero();
+    slopes_.jacobian(free[a], free[a]) = 1;
+    held[free[a]] = 0;
   }
-  Eigen::VectorXd move = newton_step(free, left);
+  Eigen::VectorXd move = newton_step(free, held);
   slopes_.jacobian = learnt;
   return move;
 }
@@ -113,22 +96,6 @@ std::optional<Eigen::VectorXd> Front::step_to_linear_front(const std::vector<int
   return Eigen::VectorXd(all(free));
 }
 
-/// With the state held the angle and, with an excess, the length lie between two others.
-void Front::step_between(int i, std::optional<double> excess) {
-  const bool is_right = tips_[i].has_angle || std::abs(before_residual_[2 * i + 1]) <= options_.direction_tolerance;
-  if (!is_right && !turn_between(i, before_place_[2 * i + 1])) {
-    if (may_shorten(i))
-      return shorten(i, longest_part, -std::max(options_.load_tolerance, brackets_[i].shorter.excess));
-    verdict_ = Verdict::failed;
-    reason_ = "no direction makes K_II vanish";
-  } else if (excess) {
-    learn_length(i, *excess);
-    const double wanted = std::max(least(i), length_between(i));
-    turn_with_length(i, wanted);
-    length_[i] = wanted;
-  }
-}
-
 /// Newton's step. A tip that would move back to where it was at the start of the step rests there.
 void Front::step(const Eigen::VectorXd& residual) {
   if (free_tips(residual)) return;
@@ -137,24 +104,16 @@ void Front::step(const Eigen::VectorXd& residual) {
   for (int i = 0; i < count(); ++i)
     if (grows_[i]) free.insert(free.end(), {2 * i, 2 * i + 1});
   const int size = static_cast<int>(free.size());
-  const std::vector<int> given = held_unknowns(residual);
-  std::vector<int> held = given;
-  for (int i = 0; i < count(); ++i)
-    if (grows_[i] && has_bracket(i) && std::ranges::find(given, 2 * i) == given.end()) held.push_back(2 * i);
-  Eigen::VectorXd move = step_without(held, free, residual);
-  const std::size_t before = held.size();
-  for (int a = 1; a < size; a += 2)
-    if (std::abs(move[a]) > quarter_turn && std::ranges::find(held, free[a] - 1) == held.end()) held.push_back(free[a]);
-  if (held.size() > before) move = step_without(held, free, residual);
+  const Eigen::VectorXd full = newton_step(free, residual);
+  Eigen::VectorXd move = turns_far(full) ? step_with_held_turns(free, residual, full) : full;
   const Eigen::VectorXd counted = count_loads(residual, equations(residual));
   double part = part_;
   for (int a = 0; a < size; a += 2) {
     const int i = free[a] / 2;
     if (!std::isfinite(move[a]) || !std::isfinite(move[a + 1]))
       move[a] = counted[free[a]] > 0 ? 0.5 : -0.5, move[a + 1] = 0;
-    part = std::min(part, largest_turn / std::max(no_motion, std::abs(move[a + 1])));
-    if (has_bracket(i)) continue;
     part = std::min(part, largest_advance / std::max(no_motion, std::abs(move[a])));
+    part = std::min(part, largest_turn / std::max(no_motion, std::abs(move[a + 1])));
     if (is_new(i)) {
       const double factor = 1 + move[a] * options_.increment / length_[i];
       if (factor > largest_factor) part = std::min(part, (largest_factor - 1) / (factor - 1));
@@ -167,11 +126,6 @@ void Front::step(const Eigen::VectorXd& residual) {
     const int i = free[a] / 2;
     const double wanted = length_[i] + part * move[a] * options_.increment;
     angle_[i] += part * move[a + 1];
-    if (has_bracket(i)) {
-      const bool is_given = std::ranges::find(given, free[a]) != given.end();
-      step_between(i, is_given ? std::nullopt : std::optional(counted[2 * i]));
-      continue;
-    }
     if (wanted <= least(i)) {
       // A tip that is back at the start of the step rests, unless it is above its toughness there: then its load rises
       // with its length.

@@ -66,8 +66,9 @@ Spec GrowthOptions::spec() {
   spec.integer(
       "tries", tries,
       {.range = between(2, 100),
-       .doc = "Evaluations of the fine level for a whole increment, or a quarter of those for one that ends at the "
-              "toughness. Then the best direction so far is taken, and where that is bad the explicit one."});
+       .doc = "Evaluations of the fine level for one length of an increment. Then a shorter one is tried, four "
+              "times as many in all, or, with whole increments, the best direction so far is taken, and where "
+              "that is bad the explicit one."});
   spec.check([this](const Node& node) { has_front_tolerance = node.find("front_tolerance") != nullptr; });
   return spec;
 }

@@ -122,6 +122,31 @@ double local_symmetry_angle(const Sifs& sifs, double length, double limit) {
   return local_symmetry_angle(sifs, 0, limit);
 }
 
+namespace {
+
+double load_after_kink(const Sifs& sifs, double length) {
+  return equivalent_sif(after_kink(sifs, local_symmetry_angle(sifs, length), length));
+}
+
+}  // namespace
+
+double longest_overloaded_kink(const Sifs& sifs, double toughness, double low, double high) {
+  constexpr int length_halvings = 40;  // of the range of lengths: a first estimate, which the search corrects
+  if (load_after_kink(sifs, high) > toughness) return high;
+  if (load_after_kink(sifs, low) <= toughness) return low;
+  for (int k = 0; k < length_halvings; ++k) {
+    const double middle = std::sqrt(low * high);
+    (load_after_kink(sifs, middle) > toughness ? low : high) = middle;
+  }
+  return low;
+}
+
+double log_slope_of_kink(const Sifs& sifs, double length) {
+  constexpr double nearby = 1.01;  // of the length
+  const double longer = nearby * length;
+  return std::log(load_after_kink(sifs, longer) / load_after_kink(sifs, length)) / (longer - length);
+}
+
 double largest_release_angle(const Sifs& sifs, double limit, const std::function<double(double)>& resistance) {
   SPREKK_EXPECT(is_finite(sifs), sifs.k1, sifs.k2, sifs.t_stress);
   SPREKK_EXPECT(limit > 0 && limit <= pi, limit);

@@ -29,6 +29,13 @@ Sifs after_kink(const Sifs& sifs, double angle, double length = 0);
 /// 1974).
 double local_symmetry_angle(const Sifs& sifs, double length = 0, double limit = 1.5);
 
+/// The longest kink (m, between `low` and `high`) in the direction of local symmetry at whose end K_eq is still above
+/// the toughness (Pa sqrt(m)), for loads that stay; `low` where there is none.
+double longest_overloaded_kink(const Sifs& sifs, double toughness, double low, double high);
+
+/// d ln K_eq / d length (1/m) at the end of such a kink; not finite where K_eq vanishes.
+double log_slope_of_kink(const Sifs& sifs, double length);
+
 /// The angle (rad, at most `limit` in size) of the infinitesimal kink that releases most energy, k_1^2 + k_2^2, of
 /// those that open, k_1 > 0, and turn away from K_II; 0 where none does. In pure mode II 75.8 degrees by the series of
 /// Amestoy and Leblond; K_II vanishes at 77.3, and the tangential stress is largest at 70.5. `resistance`: the

@@ -6,7 +6,7 @@
 namespace sprekk::fine_fracture {
 namespace {
 
-constexpr int state_size = 21;  ///< numbers of a state, without its path
+constexpr int state_size = 22;  ///< numbers of a state, without its path
 
 void append(Vector& values, const Point& point) {
   values.conservativeResize(values.size() + 2);
@@ -21,9 +21,9 @@ void Tips::save(std::map<std::string, Vector>& state) const {
     const Point start = kept.segment_start.value_or(Point::Zero());
     Vector values(state_size);
     values << kept.sifs.k1, kept.sifs.k2, kept.sifs.t_stress, kept.grown, kept.is_stopped, kept.has_started,
-        kept.sif_error, kept.warm_start.release, kept.is_evaluated, kept.load, kept.is_extendable, kept.speed,
-        kept.turning, kept.was_laid, start, kept.speed_before, kept.turning_before, kept.lasted, kept.lasted_before,
-        kept.pressure_rate;
+        kept.sif_error, kept.warm_start.stiffness_ratio, kept.warm_start.release, kept.is_evaluated, kept.load,
+        kept.is_extendable, kept.speed, kept.turning, kept.was_laid, start, kept.speed_before, kept.turning_before,
+        kept.lasted, kept.lasted_before, kept.pressure_rate;
     for (const Point& place : kept.path.added) append(values, place);
     state[name() + "." + tip.name] = std::move(values);
   }
@@ -42,19 +42,19 @@ void Tips::restore(const std::map<std::string, Vector>& state) {
     kept.is_stopped = values[4] != 0;
     kept.has_started = values[5] != 0;
     kept.sif_error = values[6];
-    kept.warm_start = {values[7]};
-    kept.is_evaluated = values[8] != 0;
-    kept.load = values[9];
-    kept.is_extendable = values[10] != 0;
-    kept.speed = values[11];
-    kept.turning = values[12];
-    kept.speed_before = values[16];
-    kept.turning_before = values[17];
-    kept.lasted = values[18];
-    kept.lasted_before = values[19];
-    kept.pressure_rate = values[20];
-    if (const Point start(values[14], values[15]); start != Point::Zero()) kept.segment_start = start;
-    kept.was_laid = values[13] != 0;
+    kept.warm_start = {values[7], values[8]};
+    kept.is_evaluated = values[9] != 0;
+    kept.load = values[10];
+    kept.is_extendable = values[11] != 0;
+    kept.speed = values[12];
+    kept.turning = values[13];
+    kept.speed_before = values[17];
+    kept.turning_before = values[18];
+    kept.lasted = values[19];
+    kept.lasted_before = values[20];
+    kept.pressure_rate = values[21];
+    if (const Point start(values[15], values[16]); start != Point::Zero()) kept.segment_start = start;
+    kept.was_laid = values[14] != 0;
     int at = state_size;
     const auto next = [&] {
       at += 2;

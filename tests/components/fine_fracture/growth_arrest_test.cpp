@@ -90,7 +90,7 @@ TEST(Arrest, is_found_sooner_after_another_one) {
     forgetful.warm_start = {};
     without += grow(forgetful);
     // 10 times and a tenth of what is true here, 25 to 15 per m.
-    misled.warm_start = {rise % 2 == 0 ? 200.0 : 2.0};
+    misled.warm_start = {1, rise % 2 == 0 ? 200.0 : 2.0};
     grow(misled);
   }
   EXPECT_LE(with, 20);

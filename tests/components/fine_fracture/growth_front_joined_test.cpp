@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -59,19 +60,22 @@ TEST(Front, ATipThatGrewAfterTheFrontWasFoundIsSearchedForToo) {
   const double sum = (0.3 + 0.25) / (20 + 2 * 30.0);
   for (const int late : {0, 1})
     for (const double perturbed : {1.0, 1 + 1e-9})
-      for (const FirstTrial& first : {FirstTrial{0.002, -0.1}, FirstTrial{0.0035, 0.03}}) {
+      for (const auto& first : {std::optional<FirstTrial>({0.002, -0.1}), std::optional<FirstTrial>({0.0035, 0.03}),
+                                std::optional<FirstTrial>()}) {
         const LateTip scene(0.3 * perturbed, 0.25 * perturbed, late, exact());
         Front front = scene.found_without_late();
         ASSERT_EQ(front.verdict(), Front::Verdict::found);
         EXPECT_NEAR(front.length(1 - late), 0.008 + 0.3 / 50, 1e-8);
         const int before = front.trials();
         const FrontTip& tip = scene.form.tips[late];
-        front.begin_with(late, first.length, tip.angle + first.angle);
+        if (first) front.begin_with(late, first->length, tip.angle + first->angle);
         front.learn_of_others(scene.states(front, true));
         ASSERT_EQ(front.verdict(), Front::Verdict::again);
         ASSERT_TRUE(front.is_laid(late));
-        EXPECT_EQ(front.length(late), first.length);
-        EXPECT_EQ(front.angle(late), tip.angle + first.angle);
+        if (first) {
+          EXPECT_EQ(front.length(late), first->length);
+          EXPECT_EQ(front.angle(late), tip.angle + first->angle);
+        }
         scene.search(front);
         ASSERT_EQ(front.verdict(), Front::Verdict::found) << front.reason();
         EXPECT_FALSE(front.is_rough());

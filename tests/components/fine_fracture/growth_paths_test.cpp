@@ -153,7 +153,7 @@ TEST(ImplicitDirection, finds_the_large_kink_of_a_tip_in_shear) {
   }
 }
 
-// K_II/K_I is 0.7 times the tangent of what the turn is off by, so this is at most twice the tolerance. A looser search
+// K_II/K_I is half the tangent of what the turn is off by, so this is at most twice the tolerance. A looser search
 // takes fewer evaluations, and does not happen to be as near as a tighter one.
 TEST(ImplicitDirection, is_found_to_its_tolerance) {
   const GrowingTip tip{
@@ -161,7 +161,7 @@ TEST(ImplicitDirection, is_found_to_its_tolerance) {
   for (const double root : {0.35, -0.35, 0.9, -0.9}) {
     const auto sifs = [&](int, const std::vector<TipPath>& paths) {
       const Point end = paths[0].added.empty() ? Point(1, 0) : paths[0].added.back();
-      return Sifs{1e6, 0.7e6 * std::tan(std::atan2(end[1], end[0]) - root)};
+      return Sifs{1e6, 0.5e6 * std::tan(std::atan2(end[1], end[0]) - root)};
     };
     long evaluations = 0;
     for (const auto& [tolerance, tighter] : {std::pair(1e-1, 1e-3), {1e-3, 1e-6}, {1e-8, 0.0}}) {
@@ -174,25 +174,6 @@ TEST(ImplicitDirection, is_found_to_its_tolerance) {
       EXPECT_GT(outcome.evaluations, evaluations) << root << ", " << tolerance;
       evaluations = outcome.evaluations;
     }
-  }
-}
-
-// Walls that close after every turn, in factors like those of a sheared tip under compression: K_II falls to zero
-// there, too, while atan2(K_II, K_I) jumps from pi to -pi, and the tip is unloaded.
-TEST(ImplicitDirection, is_found_where_walls_close) {
-  constexpr double toughness = 0.4e6, growth_of_shear = 31, closing = 3, closing_by_turn = 25, start_shear = 3.8;
-  const GrowingTip tip{
-      .tip = Point(0, 0), .direction = Point(1, 0), .toughness = toughness, .youngs_prime = 4e10, .path = {}};
-  for (const double root : {0.28, -0.28, -0.28 * (1 + 1e-9), 0.05, -0.6}) {
-    const auto sifs = [&](int, const std::vector<TipPath>& paths) {
-      if (paths[0].added.empty()) return Sifs{0.2 * toughness, -std::copysign(start_shear, root) * toughness, -39e6};
-      const double off = std::atan2(paths[0].added.back()[1], paths[0].added.back()[0]) - root;
-      return Sifs{-(closing + closing_by_turn * off * off) * toughness, growth_of_shear * off * toughness, -39e6};
-    };
-    const TipOutcome outcome = grow_tips({tip}, whole_increments("implicit", 0.05, 1), sifs, unlimited)[0];
-    EXPECT_TRUE(outcome.notes.empty()) << root << " " << outcome.notes.front();
-    EXPECT_LE(equivalent_sif(outcome.end), 0.01 * toughness) << root;
-    EXPECT_NEAR(degrees(tip.tip, outcome.path)[0] * degree, root, 0.02);
   }
 }
 

@@ -141,14 +141,14 @@ TEST_F(CheckpointTest, AnotherFormatVersionIsRefusedWithBothVersions) {
   {
     Hdf5Writer newer(path);
     newer.text("format", "sprekk checkpoint");
-    newer.integers("format_version", std::array{19});
+    newer.integers("format_version", std::array{18});
     newer.text("program_version", "9.8");
     newer.close();
   }
   const std::string message = message_of_reading();
-  EXPECT_THAT(message, HasSubstr("version 19"));
+  EXPECT_THAT(message, HasSubstr("version 18"));
   EXPECT_THAT(message, HasSubstr("sprekk 9.8"));
-  EXPECT_THAT(message, HasSubstr("this program reads version 18"));
+  EXPECT_THAT(message, HasSubstr("this program reads version 17"));
 }
 
 TEST_F(CheckpointTest, AnotherSceneIsRefused) {

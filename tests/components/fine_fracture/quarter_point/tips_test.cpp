@@ -20,7 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int state_size = 21;  // numbers that a checkpoint has of a tip without a path
+constexpr int state_size = 22;  // numbers that a checkpoint has of a tip without a path
 constexpr double toughness = 1e6, half_box = 20, crack_half_length = 1, young = 40e9, poisson = 0.2;
 constexpr double shear = young / (2 * (1 + poisson)), plane_modulus = young / (1 - poisson * poisson);
 
@@ -86,6 +86,7 @@ struct Setting {
   void grow(double length, bool first, bool last) {
     const auto state = [&](bool has_grown, double sign) {
       Vector values = Vector::Zero(has_grown ? state_size + 2 : state_size);
+      values[7] = 1;
       if (has_grown) values.tail<2>() = sign * (crack_half_length + length) * along;
       return values;
     };
@@ -210,6 +211,7 @@ struct TwoFractures {
         tips({"tips", mesh, fields, 0, {}}, options(other_toughness)) {
     tips.accept_surroundings(fluid);
     Vector rest = Vector::Zero(state_size), path = Vector::Zero(state_size + 2);
+    rest[7] = path[7] = 1;
     path.tail<2>() = (grown - half_gap) * along;
     tips.restore(
         {{"tips.left_first", rest}, {"tips.left_last", path}, {"tips.right_first", rest}, {"tips.right_last", rest}});
@@ -312,7 +314,7 @@ TEST(Tips, SaveEachValueThatTheyWereRestoredFrom) {
   // Factors, growth, flags (stopped, started, evaluated, extendable, laid), an error, a warm start, a load, a speed, a
   // turning, the start of a segment, both of the step before, the lengths of these two steps, a rate of the pressure
   // and a path of one point.
-  constexpr std::array flags = {4, 5, 8, 10, 13};
+  constexpr std::array flags = {4, 5, 9, 11, 14};
   for (int set = 0; set < 32; ++set) {
     Vector first(state_size + 2), last(state_size);
     for (int i = 0; i < first.size(); ++i) first[i] = 1.1 + 0.1 * i;
@@ -348,6 +350,7 @@ TEST(Tips, ThatTurnBackStopWhereTheyWereAndSaySo) {
   setting.fluid.pressure[1] = 30e6;
   setting.grow(0.1, false, true);
   Vector values = Vector::Zero(state_size + 2);
+  values[7] = 1;
   const double turn = 100 * pi / 180;
   const Point tip = crack_half_length * setting.along;
   values.tail<2>() =
