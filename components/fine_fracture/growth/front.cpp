@@ -18,10 +18,10 @@ constexpr double noise = 1e-5;                ///< of that norm: steps of the fa
 constexpr int patience_with_noise = 4;        ///< trials without progress, below it
 constexpr int patience = 8;                   ///< trials without progress
 constexpr double much_worse = 2;              ///< of the norm of a trial over the best so far
-constexpr double closed = 2.4;                ///< rad, of (K_I, K_II): beyond, K_II says nothing of the direction
-constexpr double shortest_part = 0.1;         ///< of such a segment: what is tried next
-constexpr double margin = 2e-3;               ///< of a bracket: a length at one of its ends would not narrow it
-constexpr double closed_bracket = 2e-3;       ///< of its longer length
+constexpr double closed = 2.4;                ///< rad, |atan2(K_II, K_I)|: above, K_II does not tell the direction
+constexpr double shortest_part = 0.1;         ///< of the length of a closed segment: what is tried next, at least
+constexpr double margin = 2e-3;               ///< of a bracket, from its ends: trials there would not narrow it
+constexpr double closed_bracket = 2e-3;       ///< of its longer length: a bracket so narrow has no solution
 constexpr double of_meshes = 0.01;            ///< ln K: ten times what it differs by between two meshes
 constexpr double shorter = 0.5;               ///< steps after a trial that was much worse
 constexpr double of_direction = 0.1;          ///< the weight of K_II/K_I beside ln K_eq/K_IC in that norm
@@ -207,8 +207,8 @@ void Front::learn_of_others(const std::vector<FrontState>& states) {
   }
 }
 
-/// With the state held the load falls from that at the start, and lengths lie between one that is too short and one
-/// that is too long.
+/// With the state held the load falls from that at the start, and the length is bracketed between one that is too short
+/// and one that is too long.
 void Front::learn_length(int tip, double excess) {
   Bracket& known = brackets_[tip];
   const Length here{length_[tip], excess};
@@ -220,7 +220,7 @@ void Front::learn_length(int tip, double excess) {
     if (known.longer) third = known.longer;
     known.longer = here;
   }
-  // Its ends were found in other directions, and one of them is no longer right.
+  // A narrow bracket: its ends were found in different directions, and one of them no longer holds.
   if (!known.longer || known.longer->length - known.shorter.length >= closed_bracket * known.longer->length) return;
   third.reset();
   if (excess > 0)
@@ -229,8 +229,7 @@ void Front::learn_length(int tip, double excess) {
     known.shorter = {0, Front::excess(start_[tip])};
 }
 
-/// m; the secant from the start, or the parabola of the length over the excess through three lengths, as in Brent's
-/// method.
+/// m; the secant from the start or, as in Brent's method, inverse quadratic interpolation through three lengths.
 double Front::length_between(int tip) const {
   const auto& [shorter, longer, third, left, right] = brackets_[tip];
   if (!longer) {
@@ -249,7 +248,7 @@ double Front::length_between(int tip) const {
   return std::clamp(next, shorter.length + margin * width, longer->length - margin * width);
 }
 
-/// The right direction differs from the estimate by an error that vanishes with the length.
+/// Turns to the estimate for another length. The error of the estimate is taken to be in proportion to the length.
 void Front::turn_with_length(int tip, double length) {
   if (tips_[tip].has_angle || length == length_[tip]) return;
   forget_angles(tip);
@@ -265,8 +264,8 @@ void Front::forget_angles(int tip) {
   brackets_[tip].right = {tips_[tip].angle + tips_[tip].largest_turn, 0};
 }
 
-/// K_II grows with the angle of a segment, as long as its length stays. It does so, too, where walls close and Newton's
-/// step means nothing. Returns false where no angle is left.
+/// With a given length K_II grows with the angle, also where walls close and Newton's step means nothing. So the angle
+/// is bracketed. Returns false where no angle is left.
 bool Front::turn_between(int tip, double tried) {
   const Sifs& sifs = last_[tip].sifs;
   Turn &left = brackets_[tip].left, &right = brackets_[tip].right;
@@ -294,8 +293,8 @@ bool Front::may_shorten(int tip) const {
          length_[tip] > shortest(tip) * (1 + at_limit);
 }
 
-/// A long kink in a wrong direction is closed, or nearly, and tells nothing of the right one. Whether the next trial
-/// has a shorter one.
+/// A long kink in a wrong direction is nearly closed, and does not tell the right one. Shortens such kinks, and returns
+/// whether there was one.
 bool Front::shorten_closed(const std::vector<FrontState>& states) {
   bool is_shorter = false;
   for (int i = 0; i < count(); ++i) {

@@ -35,7 +35,7 @@ struct FrontTip {
   bool goes_on = false;         ///< grows in the first trial, whatever its load
   /// m and rad, of the first trial; a tip that has them grows in it, whatever its load. Otherwise a length of 0.
   double first_length = 0, first_angle = 0;
-  /// Whether the first trial's length, or its angle, is the one to take: then it is not searched for.
+  /// Whether the length, or the angle, of the first trial is given: then it is not searched for.
   bool has_length = false, has_angle = false;
   double largest_turn = 1.5;  ///< rad, of a new segment from `angle`
 };
@@ -59,7 +59,9 @@ struct FrontOptions {
   double shortest = 0;                                            ///< m, of a new segment
   double longest_jump = std::numeric_limits<double>::infinity();  ///< m, of a tip in one step
   int most_trials = 20;                                           ///< of a step, before it is cut: 8 to 10 are needed
-  bool holds_state = false;  ///< each tip alone; one above its toughness at its longest goes on in another search
+  /// Whether all but the tip is held: one tip and one increment. A tip above its toughness at its longest length is
+  /// accepted, since its next increment is another search.
+  bool holds_state = false;
 };
 
 /// Finds lengths and directions of the last segments of all tips with which, in the state at the end of the step,
@@ -68,8 +70,8 @@ struct FrontOptions {
 /// known to the error of the mesh only: of all fronts within this error the one with the most equal advances is sought
 /// (most_equal_front.hpp). Of several solutions it seeks the one nearest to the start of the step.
 ///
-/// With the state held it finds one increment of one tip (IncrementSearch), whose load at length 0 is known: lengths
-/// are kept between one that is too short and one that is too long.
+/// With the state held it finds one increment of one tip (IncrementSearch). The load at length 0 is known, so the
+/// length is bracketed: it lies between one that is too short and one that is too long.
 ///
 ///   Front front(…, states of the trial without growth, …);
 ///   while (front.verdict() == again) front.learn(states of the trial with lengths(), angles());
@@ -155,10 +157,11 @@ class Front {
   /// Newton's step in the unknowns `free`.
   Eigen::VectorXd newton_step(const std::vector<int>& free, const Eigen::VectorXd& residual);
   bool is_at_longest(int tip, const Eigen::VectorXd& residual) const;
-  /// Whether the unknown stays as it is, whatever its residual.
+  /// Whether the unknown (2 tip: length, 2 tip + 1: angle) stays as it is, whatever its residual.
   bool is_held(int unknown, const Eigen::VectorXd& residual) const;
+  /// Whether the residual says if the length is too short or too long.
   bool tells_of_length(int tip, const Eigen::VectorXd& residual) const;
-  /// What stays in the next step.
+  /// The unknowns that stay in the next step.
   std::vector<int> held_unknowns(const Eigen::VectorXd& residual) const;
   /// Newton's step in the unknowns `free` but for these, which stay.
   Eigen::VectorXd step_without(const std::vector<int>& held, const std::vector<int>& free,
@@ -197,7 +200,7 @@ class Front {
     std::vector<int> held;
   };
   std::optional<Best> best_;
-  /// With the state held: lengths (m) of a new segment, and the excess at their ends, in the right direction.
+  /// With the state held: a length (m) of a new segment and the excess at its end, in the right direction.
   struct Length {
     double length, excess;
   };
@@ -207,7 +210,7 @@ class Front {
   struct Bracket {
     Length shorter;
     std::optional<Length> longer, third;
-    Turn left, right;  ///< between which K_II vanishes with the present length
+    Turn left, right;  ///< between them K_II vanishes with the present length
   };
   std::vector<Bracket> brackets_;
   bool is_warm_ = false;  ///< whether the Jacobian comes from an earlier search: a warm start

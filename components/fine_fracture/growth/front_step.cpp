@@ -54,8 +54,8 @@ bool Front::is_held(int unknown, const Eigen::VectorXd& residual) const {
   return unknown % 2 == 1 ? tips_[tip].has_angle : tips_[tip].has_length || is_at_longest(tip, residual);
 }
 
-/// A new segment in a wrong direction does not tell whether it is too long: K_eq is K (1 + phi^2), phi =
-/// atan(K_II/K_I), with K in the right one, to second order.
+/// A new segment in a wrong direction may not tell whether it is too long. To second order K_eq is K (1 + phi^2), with
+/// phi = atan(K_II/K_I) and the K of the right direction.
 bool Front::tells_of_length(int tip, const Eigen::VectorXd& residual) const {
   const double phi = residual[2 * tip + 1];
   return !is_new(tip) || !options_.holds_state || tips_[tip].has_angle ||
@@ -113,7 +113,7 @@ std::optional<Eigen::VectorXd> Front::step_to_linear_front(const std::vector<int
   return Eigen::VectorXd(all(free));
 }
 
-/// With the state held the angle and, with an excess, the length lie between two others.
+/// With the state held: keeps the angle and, if the excess is given, the length within their brackets.
 void Front::step_between(int i, std::optional<double> excess) {
   const bool is_right = tips_[i].has_angle || std::abs(before_residual_[2 * i + 1]) <= options_.direction_tolerance;
   if (!is_right && !turn_between(i, before_place_[2 * i + 1])) {

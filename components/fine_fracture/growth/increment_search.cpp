@@ -25,7 +25,7 @@ double longest_that_turns_back(const Sifs& sifs) {
   return 0.5 * root * root;
 }
 
-constexpr int lengths_tried = 4;  ///< the evaluations that an increment may take in all, over `tries`
+constexpr int lengths_tried = 4;  ///< evaluations of an increment that is to end at the toughness, over `tries`
 
 }  // namespace
 
@@ -100,7 +100,7 @@ void IncrementSearch::stay() {
   is_settled_ = is_last_ = true;
 }
 
-/// The search of this tip alone, from the increment that was tried first.
+/// Begins the search of this tip alone, from the increment that was tried first.
 void IncrementSearch::begin_front() {
   FrontTip tip;
   tip.toughness = toughness_;
@@ -136,7 +136,7 @@ void IncrementSearch::learn(const Sifs& end) {
     is_settled_ = true;
     return;
   }
-  if (is_settled_) {  // results for other positions of the other tips no longer count
+  if (is_settled_) {  // other tips have moved: earlier trials no longer count
     front_.reset();
     good_.reset();
     is_settled_ = false;

@@ -18,7 +18,7 @@ struct WarmStart {
 /// Two conditions at the end of the increment, each met within its tolerance:
 ///   K_II = 0 (direction: implicit), and
 ///   K_eq(length) = K_IC, or length = the full length and K_eq >= K_IC       (length: arrest).
-/// A first trial that does not meet them begins the search of Front, with this tip alone.
+/// If the first trial does not meet them, Front searches for this tip alone, from there.
 ///
 ///   IncrementSearch search(…);
 ///   while (!search.is_settled()) search.learn(sifs at the end of the increment search.angle(), search.length());
