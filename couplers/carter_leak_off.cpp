@@ -89,7 +89,7 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
   void count_amounts_from_here(const SettledFields&) override {
     if (!continues_) begin();
   }
-  /// Walls whose age is not that of the start are of another run, and keep it.
+  /// If ages are not those that this run would give at the start, walls are those of another run, and keep their ages.
   void begin_totals() override {
     continues_ = continues_ || wet_age_.accepted() != age_at_start_ * wet_.accepted();
     leaked_.set_both(Vector::Zero(leaked_.size()));
@@ -162,7 +162,7 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
                            "_advection, or remove the " + carried.quantity);
   }
 
-  /// All fluid of the present state has been there for as long.
+  /// All fluid of the present state has the age of the start.
   void begin() {
     wet_.set_both(wet_sizes());
     wet_age_.set_both(age_at_start_ * wet_.now());
@@ -197,9 +197,10 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
   const Mesh& mesh_;
   Origin origin_;
   FractureFluid& fluid_;
-  std::string rock_left_out_;              ///< a flow in the rock that the coupler does not stand between
-  bool is_age_given_, continues_ = false;  ///< continues_: walls are those of another run
-  double age_at_start_;                    ///< s, of what has fluid at the start
+  std::string rock_left_out_;  ///< a flow in the rock that the coupler does not stand between
+  bool is_age_given_;          ///< by `exposed_since`
+  bool continues_ = false;     ///< whether walls are those of another run
+  double age_at_start_;        ///< s, of what has fluid at the start
   Property coefficient_, spurt_;
   Field &wet_, &wet_age_, &leaked_;
   Vector wet_at_end_;  ///< of the step

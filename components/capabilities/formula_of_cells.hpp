@@ -17,11 +17,10 @@ class FormulaOfCells {
   StateOfCells& state() { return state_; }
   const StateOfCells& state() const { return state_; }
 
-  /// Evaluates the formula at the current state, in this step, in the cells that `inside` flags (empty: in
-  /// all).
-  /// Returns whether a value may have changed. Throws StateError, and then all values stay. Collective.
+  /// Evaluates the formula at the present state, in this step, in the cells that `inside` flags (empty: in all).
+  /// Returns whether a value may have changed. If it throws StateError, all values stay. Collective.
   bool evaluate(const StepTime& step, const std::vector<char>& inside = {});
-  const Vector& values() const { return values_; }  ///< one a cell; 0 in cells that are not inside
+  const Vector& values() const { return values_; }  ///< SI, one a cell; 0 in cells that are not inside
   /// The derivatives of the values by the k-th variable of the state.
   const Vector& by(std::size_t k) const { return by_[k]; }
 

@@ -8,15 +8,15 @@
 
 namespace sprekk {
 
-/// The jumps of walls, and the stiffness of the rock beside them.
+/// The displacement jumps of walls, and the stiffness of the rock beside them.
 class JumpsOfWalls {
  public:
   virtual ~JumpsOfWalls() = default;
   /// Reads the current values of the fields. To be called before `jump` when they have changed. Collective.
   virtual void update() = 0;
-  /// u(minus) − u(plus), m, in global components; of a fracture cell of any process.
+  /// u(minus) − u(plus), m, in global components. The cell may belong to any process.
   virtual Point jump(int fracture_cell) const = 0;
-  /// Of a cell of the rock. Throws std::runtime_error where the rock is anisotropic.
+  /// Pa, of a cell of the rock. Throws std::runtime_error where the rock is anisotropic.
   virtual LameParameters stiffness(int cell) const = 0;
   /// Why the jumps next to fronts have an error that does not vanish on finer meshes; empty where they converge.
   virtual std::string flaw_of_jumps() const = 0;

@@ -31,12 +31,12 @@ class MatrixFluid {
   /// Pa, the largest of the initial pressures and of those that are prescribed during a step.
   virtual double largest_given_pressure() const = 0;
   /// The porosity of each cell, if a coupler is to add the compressibility of the grains, (alpha − phi)/K (below Eq. 7
-  /// of the paper), to the storage; nullptr if the scene gives the storage as a whole, or pores by a formula.
+  /// of the paper), to the storage; nullptr if the scene gives the storage as a whole, or the porosity by a formula.
   virtual const Property* porosity_for_storage() const = 0;
-  /// Whether the volume of the pores is a formula of the state. Then it is all that they hold: no part may add what a
-  /// change of the rock's volume or of its grains stores.
+  /// Whether the porosity is a formula of the state. It then has all changes of the volume of the pores: no other part
+  /// may add what a change of the rock's volume, or the compressibility of its grains, stores.
   virtual bool has_pores_by_formula() const { return false; }
-  virtual bool pores_name(const std::string& /*variable*/) const { return false; }  ///< whether that formula does
+  virtual bool pores_name(const std::string& /*variable*/) const { return false; }  ///< whether it depends on this
   /// Replaces the viscosity of the scene, Pa s, one a cell. To be called by Part::evaluate_data, in every step.
   virtual void change_viscosity(const Vector& viscosity) = 0;
   /// The diffusivity of the fluid in a cell whose volume does not change, along the direction that conducts best,

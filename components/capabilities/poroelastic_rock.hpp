@@ -21,8 +21,8 @@ class PoroelasticRock {
   virtual void change_alpha(const Field& pressure, const Vector& alpha) = 0;
   /// Whether the stiffness is a formula of the state. bulk_modulus() is then that of the initial state.
   virtual bool stiffness_follows_state() const { return false; }
-  /// Where the stiffness follows the state, so does from now on the `alpha` of this pressure, in proportion; what it is
-  /// called with is that of the initial state. To be called while the scene is built.
+  /// From now on the `alpha` of this pressure is in proportion to a stiffness that follows the state: the one given is
+  /// that of the initial state. To be called while the scene is built.
   virtual void let_alpha_follow_stiffness(const Field& /*pressure*/) {}
   /// div u integrated over each cell (m^2, in space m^3).
   virtual const LinearExpression& volume_change() const = 0;

@@ -1,4 +1,4 @@
-// The state of each cell, as formulas of the rock see it.
+// The variables of the state in each cell, for formulas of properties of rock.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class StateOfCells {
  public:
   explicit StateOfCells(const Mesh& mesh);
 
-  /// From now on the variables that the formula names have values.
+  /// Adds the variables that the formula names to those whose values are taken.
   void let_name(const StateFormula& formula);
   std::size_t variable_count() const { return named_.size(); }  ///< that any formula names
   /// The k-th of these, as an index of rock_variables().
@@ -34,14 +34,14 @@ class StateOfCells {
   void require(const std::string& parameter, const Origin& where,
                const std::function<std::string(const std::string&)>& remedy) const;
 
-  /// Takes the present values. While the state at the start is settled, a step that ends where it begins, what others
-  /// know by expressions (the strain) keeps its accepted values: it counts from the state that is found. Returns
-  /// whether any differ from those of the last call. Collective.
+  /// Takes the present values, and returns whether any differ from those of the last call. While the start is settled
+  /// (a step that ends where it begins), expressions keep their accepted values: strain is counted from the state that
+  /// is being found. Collective.
   bool take(const StepTime& step);
   void forget();  ///< lets the next call of `take` return true
   /// Puts the values of one cell in their places among all variables.
   void put(int cell, std::vector<double>& state) const;
-  /// Derivatives of the k-th variable by a field, cells × values of the field, for all fields behind it; right in the
+  /// Derivatives of the k-th variable by each field on which it depends, cells × values of the field; complete in the
   /// rows of cells that the process owns.
   std::vector<std::pair<const Field*, SparseMatrix>> derivatives_of_variable(std::size_t k) const;
 

@@ -50,7 +50,8 @@ class SlipEvents {
   bool ends_with(const Step& step) const { return latest_.goes_on && !after(step).goes_on; }
   /// To be called when the step has been accepted.
   void accept(const Step& step);
-  /// Forgets the events of the run from which this one starts: one that goes on begins with the first step.
+  /// Forgets the events of the run from which this one starts: an event under way begins with the first step.
+  /// `slip`: m, of each cell, at the start.
   void begin_anew(const Vector& slip);
   static void report(const std::string& name, const Event& event, std::vector<Quantity>& quantities);
 

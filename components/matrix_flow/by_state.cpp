@@ -1,4 +1,4 @@
-// The flow where permeability or porosity are formulas of the state.
+// The flow where the permeability, the porosity, or both are formulas of the state.
 #include <algorithm>
 #include <utility>
 

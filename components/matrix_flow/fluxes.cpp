@@ -130,10 +130,10 @@ void MatrixFlow::report(std::vector<Quantity>& quantities) const {
 }
 
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
+  if (pores_) fields.push_back({name() + ".porosity", "", Location::cell, 1, pores_->values()});
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one. Where faces are bent, in space, that sum is V B v for a constant v, with B the sum of (x_face − x_cell) ⊗ area
   // vector over V, which is 1 for flat faces.
-  if (pores_) fields.push_back({name() + ".porosity", "", Location::cell, 1, pores_->values()});
   Vector velocity = Vector::Zero(dimension * mesh_.cell_count());
   if (discretized_mobility_ == 0) {  // nothing has flowed yet
     fields.push_back({name() + ".velocity", "m/s", Location::cell, dimension, std::move(velocity)});

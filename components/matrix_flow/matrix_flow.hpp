@@ -269,13 +269,12 @@ class MatrixFlow : public Component,
   void correct_leak(Vector& fluxes) const;  ///< adds the same to fluxes, m^2/s, as it has been counted
   Vector leaking() const;                   ///< the size of what leaks out of or into each cell, m^2/s
   void use_storage();
-  /// Of a porosity by a formula: its formula and what it excludes, its present values, what pores hold at the present
-  /// state (Field content_), the part of it that a step has stored, m^2.
+  /// For a porosity by a formula (stored_by_state.cpp). Throws InputError for what the formula excludes.
   void find_pores(const ComponentContext& context);
-  void take_pores(const StepTime& step);
-  Vector density_ratio() const;  ///< of the fluid, to that at its initial pressure
-  Vector content_now() const;
-  Vector stored_by_state() const;
+  void take_pores(const StepTime& step);  ///< at the present state; throws StateError
+  Vector density_ratio() const;           ///< of the fluid, to that at its initial pressure
+  Vector content_now() const;             ///< what pores hold at the present state, as content_
+  Vector stored_by_state() const;         ///< m^2, what each cell has stored in this step
   void assemble_stored_by_state(Assembly& assembly, BalanceRows& fluid) const;
   void count_content();
   std::vector<StateOfCells*> states() const;  ///< of all formulas
@@ -327,7 +326,7 @@ class MatrixFlow : public Component,
   Property viscosity_, porosity_, compressibility_;
   Property storage_;                             ///< 1/Pa; of pores by a formula: the derivative of what they hold
   std::unique_ptr<FormulaOfCells> pores_;        ///< nullptr where the porosity does not follow the state
-  Field* content_ = nullptr;                     ///< exists with it only: what pores hold, m^2
+  Field* content_ = nullptr;                     ///< with pores_ only: what pores hold, m^2
   std::unique_ptr<StatePermeability> by_state_;  ///< nullptr where the permeability does not follow the state
   DifferentiateFluxes differentiate_;
   std::uint64_t viscosity_of_mobility_ = 0;  ///< version, with by_state_

@@ -17,9 +17,9 @@
 namespace sprekk::matrix_flow {
 namespace {
 
-/// What the pores of a cell hold is phi (1 + c (p − p_0)) for each volume that the rock had at the start, with the
-/// compressibility c of the fluid, counted at the density that it has at its initial pressure p_0. Both parts are kept:
-/// where the porosity stays, its large values leave no round-off.
+/// What the pores hold is phi (1 + c (p − p_0)) per volume that the rock had at the start, with the compressibility c
+/// of the fluid, whose volume is counted at its initial pressure p_0. phi and phi c (p − p_0) are kept apart: where the
+/// porosity does not change, its large values then leave no round-off in the small changes of the other part.
 constexpr int parts = 2;
 
 }  // namespace
@@ -82,7 +82,7 @@ Vector MatrixFlow::stored_by_state() const {
 }
 
 void MatrixFlow::assemble_stored_by_state(Assembly& assembly, BalanceRows& fluid) const {
-  // The formula and the sums leave some last digits of each of the two contents.
+  // Round-off of the formula and of the sums: some last digits of each of the two parts.
   constexpr double last_digits = 4 * BalanceRows::round_off_of_change;
   Vector stored = stored_by_state();
   for (int c = 0; c < mesh_.cell_count(); ++c)
@@ -107,7 +107,8 @@ void MatrixFlow::count_content() {
   content_->set(content_now());
 }
 
-/// What passes have left of a balance is in the rock although its pores do not hold it yet.
+/// What remains of a balance after the last pass is in the rock, although its pores do not hold it yet: the next step
+/// stores it.
 void MatrixFlow::count_rest_later(const Assembly& assembly) {
   if (!pores_ || !assembly.has_row(pressure_)) return;
   const Vector rest = rest_of_balances(assembly, pressure_, mesh_, [&](int cell) { return is_in_cell(cell); });

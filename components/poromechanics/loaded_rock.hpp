@@ -96,7 +96,7 @@ class LoadedRock : public Component,
   Field* wall_traction_ = nullptr;  ///< exists with fractures only
   RockStiffness stiffness_;
   std::unique_ptr<FormulaOfCells> young_;  ///< nullptr where Young's modulus does not follow the state
-  Vector ratio_;                           ///< of the present one to that of the initial state; empty without a formula
+  Vector ratio_;                           ///< present over initial Young's modulus, by cell; empty without a formula
   std::vector<PoreLoad> loads_;
   std::optional<SettledRock> settled_;  ///< the state from which displacements are counted, if it was settled
   Vector jumps_;                        ///< m, of walls while u = 0; empty where they are zero
@@ -106,7 +106,7 @@ class LoadedRock : public Component,
   std::uint64_t discretized_mesh_ = 0, discretized_stiffness_ = 0;
   long discretizations_ = 0;
   Vector initial_young_;  ///< Pa, one a cell; empty without a formula
-  /// Takes Young's modulus of the initial state, as soon as all is known that its formula names.
+  /// Takes Young's modulus of the initial state, as soon as all variables that its formula names have been offered.
   void take_initial_young();
 
  private:

@@ -21,7 +21,7 @@ struct PoreLoad {
   std::uint64_t alpha_version = 1;  ///< changes with alpha
   bool is_settled = false;          ///< whether p_0 is that of a settled state, and not the initial one
   bool follows_stiffness = false;   ///< whether alpha is in proportion to a stiffness that follows the state
-  Vector ratio = {};                ///< of the present stiffness to that of the initial state then; empty: 1
+  Vector ratio = {};                ///< then: present over initial stiffness, one a cell; empty: 1
 
   /// Gives other Biot coefficients.
   void change_alpha(Vector of_rock) {

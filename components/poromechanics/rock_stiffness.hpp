@@ -25,8 +25,8 @@ class RockStiffness {
   /// Does nothing when no property depends on time. Throws DataError.
   void evaluate(const StepTime& step);
 
-  /// Of a Young's modulus that is a formula of the state: sets the one of the initial state, Pa. All stiffnesses here
-  /// are those with it; until then there are placeholders.
+  /// Where Young's modulus is a formula of the state: sets its values in the initial state, Pa, one a cell. All
+  /// stiffnesses here are those of the initial state. Before this call they mean nothing.
   void set_initial_young_modulus(Vector values);
 
   const std::vector<Stiffness>& of_cells() const { return stiffness_; }

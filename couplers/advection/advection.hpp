@@ -29,12 +29,12 @@ namespace sprekk::couplers {
 /// the rate q brings c dt q T_from, with the value T_from where it comes from. For heat T is the temperature and c the
 /// heat capacity of the fluid, for a tracer T is the concentration and c is 1. Together with m = m_old + dt (sum of q)
 /// this is
-///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)),
-/// and with the scheme `limited`, whose streams between cells have T_from + d (LimitedValues), c dt |q| d more in the
-/// cell that a stream leaves, and less in the one that it enters. So a uniform value stays uniform whatever the fluxes
-/// are, and nothing is lost or made: the amount is conserved in each schedule, also where the streams are those of a
-/// flow that is solved before or after. What has entered by the start of the step decays at the rate of the cell,
-/// c dt r m_old T: a uniform value stays uniform then, too.
+///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)).
+/// With the scheme `limited` a stream between cells has the value T_from + d (LimitedValues): c dt |q| d is added to
+/// this in the cell that it leaves, and subtracted in the one that it enters. So a uniform value stays uniform whatever
+/// the fluxes are, and nothing is lost or made: the amount is conserved in each schedule, also where the streams are
+/// those of a flow that is solved before or after. What has entered by the start of the step decays at the rate of the
+/// cell, c dt r m_old T: a uniform value stays uniform then, too.
 class Advection : public Coupler, public KeepsState, public FollowsMesh, public KeepsTotals, public CountsAmounts {
  public:
   /// Throws InputError without a flow that carries something, and for wells that the coupler leaves out.
@@ -67,7 +67,7 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   /// Gives dispersion, where there is any, by the flow as it was last solved.
   void disperse(bool in_rock, bool in_fractures);
   StreamSources sources() const;
-  /// Notes fluid that enters through a side of which no value is told.
+  /// Adds a note for each side through which fluid without a given value enters.
   void note_untold_fluid(Notes& notes) const;
   template <class Medium>
   FluidContents contents(const CouplerContext& context, Medium& medium, Location location, const char* where) const {

@@ -10,9 +10,9 @@
 namespace sprekk::couplers {
 namespace {
 
-// Of directions in which neighbours lie, smallest over largest (1 where they lie evenly around).
-constexpr double hardly_apart = 1e-2;  // below it more neighbours are asked
-constexpr double in_a_row = 1e-8;      // below it the gradient has no component there: all else is round-off
+// Smallest over largest eigenvalue of the moments of directions to neighbours (1 where these lie evenly around).
+constexpr double hardly_apart = 1e-2;  // below it more neighbours are taken
+constexpr double in_a_row = 1e-8;      // below it the gradient has no component in that direction
 
 // Of the rise and the fall around a cell of a fracture (minmod in a row of equal cells): where fluid passes many cells
 // in a step, Newton's method does not always converge with the whole.
@@ -92,8 +92,9 @@ void LimitedValues::look_around_in_rock() {
 
 void LimitedValues::look_around_in_fractures() {
   const auto& cells = mesh_->fracture_cells;
-  std::vector<std::vector<int>> at_node(mesh_->node_count());  // fracture cells; the plus side has other nodes behind
-  for (int i = 0; i < mesh_->fracture_cell_count(); ++i)       // a crossing
+  // Fracture cells. Behind a crossing the plus side has other nodes.
+  std::vector<std::vector<int>> at_node(mesh_->node_count());
+  for (int i = 0; i < mesh_->fracture_cell_count(); ++i)
     for (const int node : mesh_->face_nodes[cells[i].faces[0]]) at_node[node].push_back(i);
   // Another cell as seen in the plane of a cell, after a turn about the ridge between them.
   const auto seen_from = [&](int cell, int other, const Point& ridge) -> Point {

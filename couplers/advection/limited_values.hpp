@@ -1,4 +1,4 @@
-// The value of what streams between cells carry: linear within the cell that they leave, and limited.
+// Values at faces by limited linear reconstruction in the cell that a stream leaves.
 #pragma once
 
 #include <utility>
@@ -13,15 +13,16 @@ namespace sprekk::couplers {
 /// By how much the value at a face, or a ridge, differs from that of the cell whose fluid passes it. The gradient of a
 /// cell fits the values of its neighbours, and those that are prescribed on its sides, by least squares: it is exact
 /// for linear values. The change from the centre to the face is at most what the highest value around the cell is
-/// above its own, and at most what the lowest is below it (in a plane row of cells this is the limiter MC of van Leer
-/// 1977). So a cell higher or lower than all around has no gradient, and no face has a value beyond those around the
-/// cell: as fluid that leaves the highest of all cells has its value, and none that enters has a higher one, steps of
-/// backward Euler make no new extrema, however long they are.
+/// above its own, and at most what the lowest is below it (in a row of cells this is the limiter MC of van Leer 1977).
+/// So a cell higher or lower than all around has no gradient, and no face has a value beyond those around the cell.
+/// Fluid that leaves the highest of all cells has its value, and none that enters has a higher one: steps of backward
+/// Euler make no new extrema, however long they are.
 ///
-/// In rock a change counts in the part of the outflow in a step that the cell holds (`weights`). Where a front passes
-/// several cells in a step, backward Euler smears it farther than upwinding does, and changes in full would only keep
-/// Newton's method from converging. In fractures, through which fluid flows many times in a step while the rock takes
-/// up what it carries, profiles are nearly steady: changes count in full, and are limited to half as much.
+/// In rock, where more flows out of a cell in a step than it holds, changes are multiplied by what it holds over what
+/// flows out (`weights`). There a front passes several cells in a step, and backward Euler smears it farther than
+/// upwinding does: changes in full would only keep Newton's method from converging. In fractures fluid may pass many
+/// cells in a step while the rock takes up what it carries, and profiles are nearly steady: changes count in full, and
+/// have half the limits.
 class LimitedValues {
  public:
   /// In the rock. Neighbours do not lie behind fractures.

@@ -43,8 +43,8 @@ void append_walls(const StreamSources& sources, const Vector& rates, double sign
   }
 }
 
-/// The streams of sources. The shares of a source at a point are those of a linear pressure, so some may be negative:
-/// what it takes from these cells mixes with what comes from outside, as in a well, and enters the others.
+/// The streams of sources. Some shares of a source at a point may be negative, since they are those of a linear
+/// pressure. What it takes from these cells mixes with what comes from outside, as in a well, and enters the others.
 void append_sources(const StreamSources& sources, const std::vector<FluidSource>& given, Stream::From inside,
                     std::vector<Stream>& streams) {
   const auto is_here = [&](int cell) {

@@ -1,4 +1,4 @@
-// Notes fluid that enters through a side without a value.
+// A note for each side through which fluid without a given value enters.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,8 @@ void Advection::note_untold_fluid(Notes& notes) const {
     if (!in_fractures_->end_value(p)) into_fractures[ridge.side] += std::max(-out, 0.0);
   }
   const auto note = [&](const Field& value, const std::string& where, int side, double rate, bool is_told_beside) {
-    // A tracer has a value for such fluid, heat has that of the cell: what is told of the rock is then told of it.
+    // Fluid without a given concentration has no tracer. Without a given temperature it has that of the cell, and there
+    // is a note only if the rock beside the fracture has a given one.
     if (rate <= noticeable_part * through_all || (!carried_.of_unknown_fluid && !is_told_beside)) return;
     const std::string has = carried_.of_unknown_fluid ? "it has no " + carried_.quantity
                                                       : "it has the " + carried_.value + " of the cell that it enters";

@@ -34,7 +34,7 @@ class StateFormula {
   bool is_formula() const { return named_ != 0; }  ///< at some place
   bool names(std::size_t variable) const { return (named_ >> variable & 1U) != 0; }
   const StateVariables& variables() const { return *variables_; }
-  /// From now on it has the values of this step (value_in_step). Returns whether they may differ from those before.
+  /// From now on `at` gives the values of this step (value_in_step). Returns whether they may differ from those before.
   bool set_time(const StepTime& step) {
     const double t = time_in_step(data_, step);
     if (places_.empty() || places_.front().t == t) return false;

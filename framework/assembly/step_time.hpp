@@ -12,8 +12,8 @@ struct StepTime {
   double end = 0;    ///< s; start + dt, or the exact target when a step was cut to hit one
 };
 
-/// The time (s) whose value of a datum backward Euler takes: the end of the step; where the datum jumps there
-/// (Data::switch_times), just before it. Without a length (dt = 0, before the first step) the end.
+/// The time (s) at which backward Euler takes a datum: the end of the step, or just before it if the datum jumps there
+/// (Data::switch_times). For dt = 0, before the first step, the end.
 double time_in_step(const Data& data, const StepTime& step);
 /// The value at that time. `place.t` is not read.
 double value_in_step(const Data& data, Place place, const StepTime& step);

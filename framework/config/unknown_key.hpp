@@ -53,8 +53,8 @@ class ReadsParameter {
   const std::string* before_;
 };
 
-/// "a formula of 'p' is taken as 'permeability' by …, and not here": the specs whose parameter of the name that is
-/// being read may be a formula of this variable; "" for none.
+/// Names the specs whose parameter, of the same name as the one that is being read, may be a formula of this variable:
+/// "a formula of 'p' is taken as 'permeability' by …, and not here"; "" if there are none.
 std::string formula_takers(const std::string& variable);
 
 }  // namespace sprekk

@@ -15,9 +15,9 @@ namespace sprekk {
 /// values, and otherwise off by O(h^3). Distances are along the fracture, which may have corners. Next to a junction,
 /// and to an end, the polynomial is linear, and beyond the last centre it is the value of the cell.
 ///
-/// In space each node of the cell has the linear function that fits the cells around it best, and x takes these by its
-/// coordinates in the cell: continuous along the fracture, exact for linear values, and otherwise off by O(h^2). Where
-/// cells do not tell a slope it is the value of the cell.
+/// In space each node of the cell has the linear function that fits the cells around it best. At x these are weighted
+/// by the coordinates of x in the cell (Wachspress 1975): continuous along the fracture, exact for linear values, and
+/// otherwise off by O(h^2). Where the cells do not determine a slope it is the value of the cell.
 std::vector<std::pair<int, double>> along_fracture(const Mesh& mesh, int cell, const Point& x);
 
 }  // namespace sprekk

@@ -8,13 +8,12 @@
 
 namespace sprekk {
 
-/// Solves R A C y = R b by `apply_inverse` (of this process's rows of R b it makes the whole of y); x = C y.
-/// Collective. Up to three steps of iterative refinement follow while the componentwise backward error of the true
-/// residual is above 1e-13 and falls: unlike a norm, this error sees blocks whose values are small beside those of
+/// Solves R A C y = R b by `apply_inverse`, which is given this process's rows of R b and makes of them the whole of y;
+/// x = C y. Collective. Up to three steps of iterative refinement follow while the componentwise backward error of the
+/// true residual is above 1e-13 and falls: unlike a norm, this error sees blocks whose values are small beside those of
 /// others. `solved` is false when the normwise backward error ||r|| / (||A|| ||y|| + ||R b||) stays above 1e-10, or the
-/// relative residual
-/// ||r|| / ||R b|| above 0.3: then the matrix is so near-singular that x means nothing. A solution between these bounds
-/// and round-off is accepted: the next iteration of Newton's method improves it.
+/// relative residual ||r|| / ||R b|| above 0.3: then the matrix is so near-singular that x means nothing. A solution
+/// between these bounds and round-off is accepted: the next iteration of Newton's method improves it.
 LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scaled, const Vector& b_rows,
                            const std::function<void(Vector&)>& apply_inverse, Vector& x);
 

@@ -33,7 +33,7 @@ void share(std::vector<Point>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = Eigen::Map<const Point>(&numbers[dimension * i]);
 }
 
-// One of the two, in a plane or in space.
+// One of the two is used: in a plane, or in space.
 [[maybe_unused]] void share_places(RawMesh::Chain& chain) { parallel::take_from_root(chain.nodes); }
 [[maybe_unused]] void share_places(RawMesh::Surface& surface) { parallel::take_from_root(surface.faces); }
 

@@ -7,8 +7,8 @@
 
 namespace sprekk {
 
-/// What `make` gives on the first process, on all of them. Its exceptions are thrown on all: InputError as such, others
-/// as std::runtime_error. Collective.
+/// Calls `make` on the first process, and gives its mesh to all. An exception of `make` is thrown on all: InputError as
+/// such, others as std::runtime_error. Collective.
 RawMesh made_by_root(const std::function<RawMesh()>& make);
 
 }  // namespace sprekk

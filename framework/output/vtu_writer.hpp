@@ -32,7 +32,7 @@ void write_matrix_vtu(const std::filesystem::path& file, const Mesh& mesh, const
 void write_fracture_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
 
 /// In space: writes the lines along which fractures end in the rock, edge by edge in the order of fronts(), with the
-/// fields on ridges and the number of each edge's fracture. Other fields are left out.
+/// fields on ridges and the number of each edge's fracture. Other fields are left out. In a plane it has no lines.
 void write_front_vtu(const std::filesystem::path& file, const Mesh& mesh, const std::vector<OutputField>& fields);
 
 /// A line that continues a fracture and is not in the mesh.

@@ -1,4 +1,4 @@
-// Values that are spread over processes, made whole on all of them. Each value travels once.
+// Makes values whole that are distributed over processes. Each value travels once.
 #pragma once
 
 #include <cstddef>
@@ -25,12 +25,12 @@ void take_from_root(std::vector<Value>& values) {
   take_from_root(values.data(), count * sizeof(Value));
 }
 
-/// Makes vectors whole whose entries are spread over processes, always in the same way.
+/// Makes vectors whole whose entries are distributed over processes, always in the same way.
 class WholeVectors {
  public:
   WholeVectors() = default;
-  /// `mine`: the places of this process's entries, in any order. Each place from 0 to `size` - 1 is that of one entry
-  /// on one process; entries with larger places are left out. Collective.
+  /// `mine`: the places of this process's entries in the whole vector, in any order. Each place from 0 to `size` - 1
+  /// has one entry on one process; entries with larger places are left out. Collective.
   WholeVectors(const std::vector<int>& mine, int size);
   /// The vector of which this process has the entries `mine`, in their order. Collective.
   Vector whole(const Vector& mine) const;

@@ -14,7 +14,7 @@ namespace {
 
 // What Newton's method, which stops at 1e-10 of the terms of an equation, leaves of a balance.
 constexpr double far_below = 1e-10;
-constexpr double same = 1e-12;  // of a value: a change that no figure shows
+constexpr double same = 1e-12;  // of a value: smaller changes are invisible in a figure
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Values that no curve has to be drawn for: a sentence names them.
+// Values that need no curve: a sentence names them.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 
 namespace sprekk {
 
-/// The largest absolute value of each unit. Values that are not finite do not count.
+/// The largest absolute value of each unit, of values that are finite.
 class SizesOfUnits {
  public:
   void add(const std::string& unit, const std::vector<double>& values);
@@ -27,7 +27,7 @@ class QuietValues {
  public:
   /// `sizes`: of all values beside which these stand.
   explicit QuietValues(SizesOfUnits sizes) : sizes_(std::move(sizes)) {}
-  /// Whether values in time need no curve: they do not change, or are far below others. They are told then.
+  /// Whether values in time need no curve, since they do not change, or are far below others. Then told() names them.
   bool takes(const std::string& name, const std::string& unit, const std::vector<double>& values);
   /// HTML paragraphs; "" where all is drawn.
   std::string told() const;

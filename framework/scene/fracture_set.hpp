@@ -9,7 +9,7 @@
 
 namespace sprekk {
 
-/// Whether a key, a name or `joints_*`, stands for a name.
+/// Whether a key stands for a name: the key is this name, or is like `joints_*` and the name begins so.
 bool stands_for(const std::string& key, const std::string& name);
 
 /// One flag a fracture cell: whether its fracture has one of these names; `joints_*` stands for all names that begin

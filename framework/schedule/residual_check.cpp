@@ -17,7 +17,7 @@ constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of
 /// large ones, shrink by 1e-16 in each iteration until they get there.
 constexpr double no_digits = 1e-154;
 
-/// What the processes know together of the rows of each unknown.
+/// Sizes of the rows of each unknown: of this process, and after add_up() of all processes.
 struct OfUnknowns {
   explicit OfUnknowns(std::size_t count)
       : largest(Vector::Zero(static_cast<Eigen::Index>(count))),
@@ -28,7 +28,7 @@ struct OfUnknowns {
   Vector largest, magnitude, round_off_base;  ///< largest residual, and of the terms
   Vector squares, rows;  ///< sum of the squares of residuals, and number, of rows that are not fixed
 
-  /// One message for all maxima, and one for all sums. Collective.
+  /// Takes maxima and sums over all processes: one message for all maxima, and one for all sums. Collective.
   void add_up() {
     const Eigen::Index n = largest.size();
     Vector maxima(3 * n), sums(2 * n);

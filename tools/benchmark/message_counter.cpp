@@ -1,6 +1,6 @@
-// Counts what a process says to others by MPI, and its processor time outside of MPI: loaded before the program by
-// LD_PRELOAD (tools/benchmark/scaling.py). Wall time says nothing where processes share cores, and processor time alone
-// little, since a process that waits for a message looks for it all the time.
+// Counts what a process sends to others by MPI, and its processor time outside of MPI; to be loaded before the program
+// by LD_PRELOAD (tools/benchmark/scaling.py). Where processes share cores, wall time says nothing; and processor time
+// includes the time in which a process waits for messages, since it polls for them.
 //
 // At the end each process writes MESSAGE_COUNTER.RANK: its processor seconds outside of MPI, its largest memory, and a
 // table of calls, messages, bytes given to others and seconds inside of MPI by the library that called. steady_clock is

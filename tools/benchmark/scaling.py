@@ -81,7 +81,7 @@ time: {end: 3 day, step: 1 day}
 output: {every: 3 day, probes: {pressure: {of: conduit.pressure, fracture: fault, at: [0 m, 0 m, 0 m]}}}
 """
 
-# The text, the type of the rock, and edges of rock and fractures that give about 70,000 triangles or 59,000 tetrahedra.
+# The text, the type of the rock, and edges of rock and fractures that give about 56,000 triangles or 59,000 tetrahedra.
 SCENES = {
     "plane": (PLANE, "poromechanics/mpsa", 0.05, 0.04),
     "fem": (PLANE, "poromechanics/fem", 0.05, 0.04),

@@ -34,7 +34,7 @@ struct FemOperators {
   Vector wall_compliance;  ///< how a traction on walls moves the functions of their faces alone, m/Pa, as `jump`
   std::vector<CellPoint::Gradients> of_interior;  ///< see CellStiffness
   std::vector<int> tips;                          ///< see tips_of_faces
-  SparseMatrix to_rows;                   ///< forces on all coefficients become those on unknowns: 0 for what is held
+  SparseMatrix to_rows;  ///< from forces on all coefficients to the rows of unknowns; 0 for prescribed displacements
   std::vector<Eigen::MatrixXd> of_cells;  ///< of second order: CellStiffness::of_unknowns of each cell
 };
 

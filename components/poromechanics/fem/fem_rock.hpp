@@ -63,9 +63,9 @@ class FemRock : public LoadedRock, public NeedsDirectSolver, public FollowsState
   void discretize();
   void use_loads();
   void use_given();
-  /// Of a Young's modulus by a formula: the momentum rows at the present state; their derivatives.
+  /// With a Young's modulus by a formula: makes the momentum rows at the present state.
   void use_young();
-  void assemble_young(Assembly& assembly) const;
+  void assemble_young(Assembly& assembly) const;  ///< the derivatives of these rows by the variables of the formula
   SparseMatrix owned_rows(SparseMatrix rows, const Field& field) const;
   std::vector<Stiffness> present_stiffness() const;
   void count_from_equilibrium() override;
@@ -86,7 +86,7 @@ class FemRock : public LoadedRock, public NeedsDirectSolver, public FollowsState
   GivenLoads given_;
   std::vector<Quantity> momentum_;  ///< of each unknown field
   Quantity volume_, jump_;
-  LinearExpression volume_of_all_;  ///< volume_, with right rows for all cells, of unknowns alone; with a formula
+  LinearExpression volume_of_all_;  ///< with a formula: as volume_, but with the rows of all cells, and no constant
 };
 
 }  // namespace sprekk::poromechanics

@@ -62,7 +62,7 @@ void FemRock::assemble_young(Assembly& assembly) const {
     for (int i = 0; i < functions; ++i)
       for (int k = 0; k < dimension; ++k) entries.emplace_back(first[i] + k, c, forces[dimension * i + k]);
   }
-  // By the ratio of the present modulus of each cell to its initial one.
+  // The derivative of the rows by `ratio_` of each cell.
   SparseMatrix of_ratio = operators_.to_rows * made(numbers.size(), mesh_.cell_count(), entries);
   for (const PoreLoad& load : loads_)
     if (load.follows_stiffness)

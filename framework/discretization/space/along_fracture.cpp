@@ -9,7 +9,7 @@
 namespace sprekk {
 namespace {
 
-/// Those of the cells of a fracture beside one another that `accepts` takes, from `cells` on.
+/// `cells`, and the cells that are reached from them across at most `rings` ridges, all of which `accepts` takes.
 template <class Accepts>
 std::vector<int> spread(const Mesh& mesh, std::vector<int> cells, int rings, const Accepts& accepts) {
   for (std::size_t first = 0, last = cells.size(); rings > 0 && first < last; --rings, last = cells.size())
@@ -22,8 +22,8 @@ std::vector<int> spread(const Mesh& mesh, std::vector<int> cells, int rings, con
   return cells;
 }
 
-/// The weights of the linear function that fits best at these cells, for its value at x; empty where they do not tell
-/// its slope.
+/// The weights of these cells in the value at x of the linear function that fits them best; empty where they do not
+/// determine its slope.
 std::vector<std::pair<int, double>> fitted(const Mesh& mesh, const std::vector<int>& cells, const FractureCell& home,
                                            const Point& x) {
   Eigen::MatrixXd basis(cells.size(), dimension);
@@ -39,7 +39,7 @@ std::vector<std::pair<int, double>> fitted(const Mesh& mesh, const std::vector<i
   return weights;
 }
 
-/// The coordinates of x by the corners of the face of a cell: linear along edges, and 1 in all (Wachspress 1975).
+/// The coordinates of x for the corners of a cell's face: linear along edges, and 1 in all (Wachspress 1975).
 std::vector<double> coordinates(const Mesh& mesh, const FractureCell& home, const Point& x) {
   const FaceNodes& nodes = mesh.face_nodes[home.faces[0]];
   const int count = static_cast<int>(nodes.size());

@@ -52,7 +52,7 @@ struct MumpsSolver::Instance {
   std::vector<int> border;         ///< the numbers of the unknowns that are not eliminated
   std::vector<double> schur;       ///< their Schur complement, by rows
   std::vector<int> pivots;         ///< the unknowns, from 0 on, of which this process gets the solution
-  int pivots_of = 0;               ///< the icntl(9) of the solve that gave them; 0: none since the last factorization
+  int pivots_of = 0;               ///< icntl(9) of the solve that gave `pivots`; 0: none since the factorization
   std::unique_ptr<parallel::RowExchange> solution_to_rows;  ///< from those to the rows of this process
   std::unique_ptr<parallel::WholeVectors> solution_to_all;  ///< from those to all unknowns
   bool is_ordered = false;                                  ///< for these entries
@@ -397,7 +397,7 @@ Eigen::MatrixXd MumpsSolver::solution_at_pivots(Eigen::MatrixXd& columns) {
   data.sol_loc = solution.data();
   mumps_->run(solve_for_columns);
   for (int& unknown : solved) --unknown;
-  // Those of the transposed matrix are others. Both stay as long as the factors.
+  // Pivots are others for the transposed matrix, and stay as long as the factors.
   const bool may_differ = std::exchange(mumps_->pivots_of, mumps_->icntl(9)) != mumps_->icntl(9);
   if (may_differ && parallel::any(solved != mumps_->pivots)) {
     mumps_->pivots = std::move(solved);

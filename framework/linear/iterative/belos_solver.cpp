@@ -165,8 +165,8 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     const Vector left = restart == 0 ? r : left_to_solve(r, measured, some_are_left ? tolerance_ : rounding);
     const double left_before = left_norm;
     left_norm = std::sqrt(parallel::sum(left.squaredNorm()));
-    // A smaller gain ends it, as usual for iterative refinement. The ratio of a block whose solution is zero stays,
-    // while its residual falls.
+    // A smaller gain ends the restarts, as usual for iterative refinement. For a block whose solution is zero only the
+    // residual falls, and the ratio does not.
     constexpr double hardly_better = 0.5;
     const bool stalls = restart > 1 && !(measured.largest_ratio < hardly_better * ratio_before) &&
                         !(left_norm < hardly_better * left_before);

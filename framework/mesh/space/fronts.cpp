@@ -21,7 +21,7 @@ class Edges {
     from_.emplace(edge.nodes[0], std::pair(ridge, edge));
   }
 
-  /// Takes edges away: those of lines with two ends first.
+  /// Joins the edges to lines, those with two ends first. Takes the edges away.
   std::vector<Front> lines(int fracture) {
     std::vector<int> starts;
     for (const auto& [node, edge] : from_)

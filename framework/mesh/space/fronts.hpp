@@ -7,8 +7,8 @@
 
 namespace sprekk {
 
-/// Ridges of one fracture of kind tip, one behind the other: as seen from the plus side, a front goes clockwise around
-/// its fracture. It ends on sides, and where fractures meet.
+/// A line of ridges of the kind `tip` of one fracture, in order: as seen from the plus side, clockwise around the
+/// fracture. It is closed, or ends on sides and where fractures meet.
 struct Front {
   int fracture;
   std::vector<int> ridges;

@@ -18,7 +18,7 @@ bool is_corner(const RimEdge& one, const RimEdge& next) {
   return one.axes.col(2).dot(next.axes.col(2)) < std::cos(largest_bend);
 }
 
-/// The edges of the front from `first` on, so many of them.
+/// `count` edges of the front from `first` on. `start`: m, the arc length there.
 FrontPiece piece_of(const Mesh& mesh, const Front& front, int first, int count, double start) {
   FrontPiece piece{front.fracture, false, {}, {}, {start}, {}};
   const int all = static_cast<int>(front.edges.size());
@@ -41,7 +41,7 @@ void add_directions(FrontPiece& piece) {
   }
 }
 
-/// The fracture cells that are joined without a junction between them have one number.
+/// Fracture cells that are connected without crossing a junction have the same number.
 std::vector<int> patches(const Mesh& mesh) {
   std::vector<int> patch(mesh.fracture_cell_count(), none);
   for (int first = 0; first < mesh.fracture_cell_count(); ++first) {
@@ -139,7 +139,7 @@ std::vector<CellBehind> cells_behind(const Mesh& mesh, const std::vector<FrontPi
 std::vector<double> distances_in_cell(const Mesh& mesh, const FrontPiece& piece, const CellBehind& seen, int cell) {
   const FractureCell& home = mesh.fracture_cells[cell];
   const FaceNodes& nodes = mesh.face_nodes[home.faces[static_cast<int>(Wall::plus)]];
-  // Edges further along the front than this are further away from all of the cell.
+  // m along the front: edges beyond are not the nearest to any point of the cell.
   const double reach = seen.distance + 2 * home.size();
   std::vector<int> edges{seen.edge};
   for (const int direction : {-1, 1}) {

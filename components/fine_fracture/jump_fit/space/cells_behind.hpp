@@ -19,14 +19,14 @@ struct FrontPiece {
   int count() const { return static_cast<int>(edges.size()); }
   double length(int edge) const { return arc[edge + 1] - arc[edge]; }
   double length() const { return arc.back() - arc.front(); }
-  /// From one place on the piece to another, m; around a closed one the shorter way.
+  /// m, along the piece from one arc length to another, with its sign; around a closed piece the shorter way.
   double way(double from, double to) const;
-  /// The edge so many behind or before this one, or none.
+  /// The edge that is `further` edges along from this one (back if negative); none beyond the ends.
   int edge_at(int edge, int further) const;
 };
 
-/// Of all fronts. They end at corners of more than 45 degrees, where jumps do not go with the square root of the
-/// distance.
+/// The pieces of all fronts. They end at corners of more than 45 degrees, near which jumps are not proportional to the
+/// square root of the distance.
 std::vector<FrontPiece> pieces_of_fronts(const Mesh& mesh);
 
 /// A fracture cell as seen from the front that is nearest.
@@ -43,10 +43,10 @@ struct CellBehind {
 /// One for each fracture cell.
 std::vector<CellBehind> cells_behind(const Mesh& mesh, const std::vector<FrontPiece>& pieces);
 
-/// m, of places in the cell from its piece; their parts of the cell are equal.
+/// Distances (m) from its piece to points of quadrature in the cell, which have equal weights.
 std::vector<double> distances_in_cell(const Mesh& mesh, const FrontPiece& piece, const CellBehind& seen, int cell);
 
-/// m: how far the last cell of a fracture reaches behind the front.
+/// m: how far the fracture cell at an edge reaches behind it.
 double depth_behind(const Mesh& mesh, const RimEdge& edge);
 
 /// What is on the line behind the middle of an edge, across the front.

@@ -24,7 +24,7 @@ struct Weights {
 
 Weights weights_at_front(const std::vector<Sample>& samples) {
   const int count = static_cast<int>(samples.size());
-  constexpr double spread = 0.2;  // of samples in a column, in cells: structured meshes have columns without any
+  constexpr double spread = 0.2;  // least, of samples in what a term adds, in cells: one row of cells has no slope
   Eigen::MatrixXd columns(count, 4), directions(count, 4);
   int kept = 0;
   Weights weights;
@@ -91,7 +91,7 @@ class PieceFit {
     double arc, size, size_along;  ///< m
   };
 
-  /// A place that few cells tell of has large weights, which do to errors of jumps what they do to jumps.
+  /// Where few cells lie behind a place the weights are large, and amplify errors of the jumps.
   static bool is_good(const Weights& weights) {
     constexpr double largest_sum = 4;  // of weights in size: a line through 2.5, 3.5 and 4.5 cells has 3.8
     return weights.has_line && weights.of_samples.lpNorm<1>() < largest_sum;
@@ -123,7 +123,7 @@ class PieceFit {
     return samples;
   }
 
-  /// The cell at the front, where there are too few.
+  /// The cell at the front alone, where there are too few for a fit.
   std::vector<Sample> nearest(const Strip& strip, int edge) const {
     const int cell = piece_.edges[edge].cell;
     return {{seen_[cell].distance / strip.size, 0, cell}};

@@ -8,8 +8,8 @@
 
 namespace sprekk::fine_fracture {
 
-/// A vector of factors: with (E'/8, E'/8, G/4) as moduli it is (K_II, K_I, K_III), Pa sqrt(m), in the order of the axes
-/// of a RimEdge: ahead, towards the plus side, along the front.
+/// A weighted sum of jumps. Its components times (E'/8, E'/8, G/4) are (K_II, K_I, K_III), Pa sqrt(m), in the order of
+/// the axes of a RimEdge: ahead, towards the plus side, along the front.
 struct FrontSum {
   /// What the jump of a cell adds.
   struct Part {
@@ -20,13 +20,13 @@ struct FrontSum {
   std::vector<Part> parts;
 };
 
-/// An edge of a front, where its factors are.
+/// An edge of a front and the sums that give the factors at its middle.
 struct FrontPlace {
   int ridge, fracture;
   int cell;    ///< the fracture cell there
   double arc;  ///< m, of its middle along the front
   FrontSum fitted;
-  FrontSum with_one_less;  ///< the fit to a cell less; empty where a line has no two places to go through
+  FrontSum with_one_less;  ///< from a strip that is one cell size shorter; empty where that does not give a line
 };
 
 /// By the expansion of Williams (J. Appl. Mech. 24 (1957) 109) the jumps at the distance r behind a front are

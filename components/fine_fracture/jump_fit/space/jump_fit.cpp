@@ -16,7 +16,7 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* unit_of_factors = "Pa*m^0.5";
 
-/// What the rock on one side, or on both, does to jumps, Pa.
+/// The moduli in the relation between factors and jumps, of one side or of both, Pa.
 struct Moduli {
   double plane, shear;  ///< E', and that of shear
 };
@@ -25,7 +25,7 @@ Moduli moduli(const LameParameters& rock) {
   return {4 * rock.shear * (rock.lambda + rock.shear) / (rock.lambda + 2 * rock.shear), rock.shear};
 }
 
-/// The jump is a sum of what both sides move.
+/// The jump is the sum of the displacements of both sides, so compliances are averaged.
 Moduli of_both(const Moduli& one, const Moduli& other) {
   const auto mean = [](double a, double b) { return 2 * a * b / (a + b); };
   return {mean(one.plane, other.plane), mean(one.shear, other.shear)};
@@ -55,7 +55,7 @@ std::vector<FrontJumpFit::Factors> FrontJumpFit::factors() const {
   jumps_->update();
   const auto value_of = [&](const FrontSum& sum, const Point& per_jump) {
     Point value = Point::Zero();
-    // The plus wall against the minus wall.
+    // u(plus) − u(minus), the opposite of the jump.
     for (const FrontSum::Part& part : sum.parts)
       value -= part.weight * (part.axes.transpose() * jumps_->jump(part.cell));
     return Point(value.cwiseProduct(per_jump));

@@ -29,7 +29,7 @@ class FrontJumpFit : public Component, public FractureFronts, public NotGrowing 
   std::string why_no_growth() const override;
 
  private:
-  /// Pa sqrt(m); `error`: how much they change with a cell less, not a number where there is none.
+  /// Pa sqrt(m); `error`: by how much they change in a strip that is one cell size shorter; NaN where that gives none.
   struct Factors {
     double k1, k2, k3, error;
     double release;  ///< J/m^2
@@ -40,7 +40,7 @@ class FrontJumpFit : public Component, public FractureFronts, public NotGrowing 
   Origin origin_;
   std::vector<FrontPlace> places_;
   JumpsOfWalls* jumps_ = nullptr;
-  bool has_begun_ = false;  ///< the first step: before it the rock has no stiffness
+  bool has_begun_ = false;  ///< whether the first step has begun: before it the rock has no stiffness
 };
 
 }  // namespace sprekk::fine_fracture
