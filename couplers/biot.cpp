@@ -277,7 +277,7 @@ class Biot : public Coupler,
   bool stores_volume() const { return !decoupled_ && !options_.one_way && !fluid_.has_pores_by_formula(); }
 
   void check_pores() const {
-    if (!fluid_.has_pores_by_formula() || options_.one_way != fluid_.pores_name("eps_v")) return;
+    if (!fluid_.has_pores_by_formula() || options_.one_way != fluid_.porosity_depends_on("eps_v")) return;
     const std::string flow = fluid_.pressure().spec().owner;
     if (options_.one_way)
       throw InputError(origin_, "'one_way' contradicts the porosity of '" + flow + "'",

@@ -143,7 +143,7 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
   void note_input(Notes& notes) const override {
     if (continues_ && is_age_given_)
       notes.add(name() + ": exposed_since",
-                "'exposed_since' is not read (walls have the age that they have in the run from which this one starts) "
+                "'exposed_since' is not read (walls keep their age from the run from which this one starts) "
                 "remove it");
     if (!rock_left_out_.empty())
       notes.add(name() + " beside " + rock_left_out_,

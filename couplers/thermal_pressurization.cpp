@@ -173,7 +173,7 @@ class ThermalPressurization : public Coupler, public FollowsMesh, public KeepsTo
     const Property beta = property(options.fluid_expansion), phi = property(*options.porosity);
     const Property of_grains = property(options.expansion.value_or(Data(0))),
                    alpha = property(options.biot_coefficient.value_or(Data(1)));
-    if (fluid.pores_name("T") && !of_grains.values().isZero(0))
+    if (fluid.porosity_depends_on("T") && !of_grains.values().isZero(0))
       throw InputError(context.origin, "grains that expand fill pores twice",
                        "the porosity of the rock is a formula that names 'T'",
                        "write 'expansion: 0 1/K' here, and what grains fill in the formula: 3 (alpha - phi) alpha_T "

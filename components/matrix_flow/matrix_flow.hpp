@@ -173,7 +173,7 @@ class MatrixFlow : public Component,
   std::optional<OutsideOfRock> outside(int side, const Place& place, const StepTime& step) const override;
   const Property* porosity_for_storage() const override { return options_.storage || pores_ ? nullptr : &porosity_; }
   bool has_pores_by_formula() const override { return pores_ != nullptr; }
-  bool pores_name(const std::string& variable) const override;
+  bool porosity_depends_on(const std::string& variable) const override;
   void change_viscosity(const Vector& viscosity) override;
   void accept_rock_storage(const Vector& storage) override { rock_storage_ = storage; }
   Field& wall_flux() override { return *wall_flux_; }

@@ -31,7 +31,7 @@ void MatrixFlow::find_pores(const ComponentContext& context) {
   pores_->state().offer("p", StateField{&pressure_});
   if (options_.fluid_compressibility->depends_on_time())
     throw InputError(origin_,
-                     "the porosity of '" + name() + "' follows the state, and 'fluid_compressibility' the time",
+                     "the porosity of '" + name() + "' follows the state, and 'fluid_compressibility' depends on time",
                      "what pores hold would change at once with a property of the fluid",
                      "give one compressibility, or a porosity that does not depend on the state");
   content_ = &context.fields.add(
@@ -40,7 +40,7 @@ void MatrixFlow::find_pores(const ComponentContext& context) {
                    "Volume of pores, and what their fluid is compressed by, that the balance has counted", parts));
 }
 
-bool MatrixFlow::pores_name(const std::string& variable) const { return pores_ && pores_->state().names(variable); }
+bool MatrixFlow::porosity_depends_on(const std::string& variable) const { return pores_ && pores_->state().names(variable); }
 
 void MatrixFlow::take_pores(const StepTime& step) {
   if (!pores_->evaluate(step, inside_) && storage_.values().size() > 0) return;

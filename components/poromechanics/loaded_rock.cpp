@@ -33,7 +33,7 @@ void LoadedRock::offer_state(const std::string& variable, const StateField& sour
   if (!young_ || !young_->state().names(variable)) return;
   if (std::ranges::count(offered_, variable) > 0)
     throw InputError(origin_, "the formula of 'young_modulus' names " + quoted(variable),
-                     "two components give one to '" + name() + "'", "couple one of them with the rock");
+                     "two components give it to '" + name() + "'", "couple one of them with the rock");
   offered_.push_back(variable);
   young_->state().offer(variable, source);
   take_initial_young();

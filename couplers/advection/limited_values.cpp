@@ -26,11 +26,11 @@ Eigen::SelfAdjointEigenSolver<Tensor> moments_of(const Links& links) {
   return Eigen::SelfAdjointEigenSolver<Tensor>(moments);
 }
 
-/// Whether the directions have all components; along a fracture there is one less.
+/// Whether the directions have all components.
 template <class Links>
-bool fills_space(const Links& links, int components) {
+bool fills_space(const Links& links) {
   const auto moments = moments_of(links).eigenvalues();
-  return moments[dimension - components] > hardly_apart * moments[dimension - 1];
+  return moments[0] > hardly_apart * moments[dimension - 1];
 }
 
 /// By least squares, in which near neighbours count more.
@@ -83,7 +83,7 @@ void LimitedValues::look_around_in_rock() {
         around.links.push_back({none, face, mesh_->face_center[face] - mesh_->cell_center[c]});
       }
     }
-    if (!around.links.empty() && fills_space(around.links, dimension)) continue;
+    if (!around.links.empty() && fills_space(around.links)) continue;
     std::erase_if(around.links, [](const Link& link) { return link.cell != none; });
     for (const int other : around.cells)
       around.links.push_back({other, none, mesh_->cell_center[other] - mesh_->cell_center[c]});

@@ -95,7 +95,7 @@ std::string history_section(const RunResults& results) {
   const std::set<std::string> probes = probe_names(results);
   const std::vector<ThingColumn> things = thing_columns(history);
   std::vector<Group> probed, reported;
-  QuietValues quiet_probes(sizes_in(history)), quiet(sizes_in(history));
+  QuietValues quiet_probes(sizes_in(history)), quiet = quiet_probes;
   for (std::size_t i = 3; i < history.columns().size(); ++i) {
     const ColumnName name = column_name(history.columns()[i]);
     const bool is_elsewhere = std::any_of(

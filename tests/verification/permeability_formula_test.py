@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""rock_formulas_test.py SPREKK [MPIEXEC]: the permeability of rock as a formula of the state.
+"""permeability_formula_test.py SPREKK [MPIEXEC]: the permeability of rock as a formula of the state.
 
 - Closed forms: steady flow with k = k0 exp(g p) by Kirchhoff's transform, through unlike layers, with orders; turned and mirrored; a column whose strain is known.
 - Transient flow against finite volumes in NumPy. Second order in time with sdirk2.
@@ -107,7 +107,7 @@ def potential(pressure):
     return np.expm1(GAMMA * pressure) / GAMMA
 
 
-class RockFormulas(SceneRuns):
+class PermeabilityFormula(SceneRuns):
     def outflow(self, run, side="right"):
         return run.history[f"pore.{side}.outflow[m^2/s]"][-1]
 
