@@ -40,7 +40,9 @@ void MatrixFlow::find_pores(const ComponentContext& context) {
                    "Volume of pores, and what their fluid is compressed by, that the balance has counted", parts));
 }
 
-bool MatrixFlow::porosity_depends_on(const std::string& variable) const { return pores_ && pores_->state().names(variable); }
+bool MatrixFlow::porosity_depends_on(const std::string& variable) const {
+  return pores_ && pores_->state().names(variable);
+}
 
 void MatrixFlow::take_pores(const StepTime& step) {
   if (!pores_->evaluate(step, inside_) && storage_.values().size() > 0) return;
