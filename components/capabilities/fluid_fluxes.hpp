@@ -14,6 +14,9 @@ namespace sprekk {
 struct FluidSource {
   std::string name;
   std::vector<std::pair<int, double>> rates;  ///< cells, and m^2/s (in space m^3/s)
+  /// Whether the rates are shares of one rate, at a point or along a line. Some may have the other sign: shares are
+  /// those of a linear pressure. Otherwise each cell has a rate of its own.
+  bool is_shared = false;
 };
 
 /// A named place whose pressure is prescribed: what enters there makes up for what flows away.

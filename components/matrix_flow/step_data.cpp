@@ -11,7 +11,7 @@
 namespace sprekk::matrix_flow {
 
 bool MatrixFlow::depends_on_time() const {
-  return properties_change_ || options_.source.depends_on_time() ||
+  return properties_change_ || pores_ || options_.source.depends_on_time() ||
          std::any_of(options_.wells.begin(), options_.wells.end(),
                      [](const auto& well) { return well.second.rate.depends_on_time(); }) ||
          std::any_of(options_.boundary.begin(), options_.boundary.end(), [](const auto& side) {
@@ -108,7 +108,7 @@ void MatrixFlow::evaluate_sources(const StepTime& step) {
   }
   for (const auto& [name, well] : options_.wells) {
     const double rate = value_in_step(well.rate, {well.path().front(), 0, 0}, step);
-    FluidSource& at_well = sources_.emplace_back(FluidSource{name, {}});
+    FluidSource& at_well = sources_.emplace_back(FluidSource{name, {}, true});
     for (const auto& [cell, weight] : well_cells_.at(name)) {
       source_[cell] += weight * rate;
       at_well.rates.emplace_back(cell, weight * rate);

@@ -102,9 +102,17 @@ void LoadedRock::change_alpha(const Field& pressure, const Vector& alpha) {
   }
 }
 
+std::optional<LameParameters> LoadedRock::stiffness(int cell) const {
+  std::optional<LameParameters> present = stiffness_.lame(cell);
+  if (present && ratio_.size() > 0)
+    present = LameParameters{ratio_[cell] * present->lambda, ratio_[cell] * present->shear};
+  return present;
+}
+
 bool LoadedRock::evaluate(const StepTime& step) {
   const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
-  if (data_evaluated_ && (same_step || !(stiffness_.changes() || options_.loads_depend_on_time()))) return false;
+  const bool may_change = young_ || stiffness_.changes() || options_.loads_depend_on_time();
+  if (data_evaluated_ && (same_step || !may_change)) return false;
   data_evaluated_ = true;
   evaluated_for_ = step;
   loads_applied_ = false;

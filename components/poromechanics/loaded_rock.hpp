@@ -67,7 +67,7 @@ class LoadedRock : public Component,
   bool initial_stress_changes() const override { return !stiffness_.excavation().is_empty(); }
   bool has_body_force() const override { return options_.has_body_force(); }
   Point body_force(int cell, const Point& x) const override;
-  std::optional<LameParameters> stiffness(int cell) const override { return stiffness_.lame(cell); }
+  std::optional<LameParameters> stiffness(int cell) const override;
   std::uint64_t properties_version() const override { return stiffness_.version() + alpha_version(); }
 
  protected:

@@ -43,8 +43,8 @@ void append_walls(const StreamSources& sources, const Vector& rates, double sign
   }
 }
 
-/// The streams of sources. Some shares of a source at a point may be negative, since they are those of a linear
-/// pressure. What it takes from these cells mixes with what comes from outside, as in a well, and enters the others.
+/// The streams of sources. What a shared one takes from cells with shares of the other sign mixes with what comes from
+/// outside, as in a well, and enters the others.
 void append_sources(const StreamSources& sources, const std::vector<FluidSource>& given, Stream::From inside,
                     std::vector<Stream>& streams) {
   const auto is_here = [&](int cell) {
@@ -53,13 +53,14 @@ void append_sources(const StreamSources& sources, const std::vector<FluidSource>
   for (const FluidSource& source : given) {
     double entering = 0, leaving = 0;
     for (const auto& [cell, rate] : source.rates) (rate > 0 ? entering : leaving) += std::abs(rate);
+    const bool mixes = source.is_shared && entering > 0 && leaving > 0;
     const double larger = std::max(entering, leaving);
     const std::optional<double> outside = sources.injected_value(source.name);
     for (const auto& [cell, rate] : source.rates) {
-      const double other_way = rate > 0 ? leaving : entering;
-      if (is_here(cell) && other_way < larger)
-        streams.push_back(from_outside(cell, other_way == 0 ? rate : rate * (1 - other_way / larger), outside));
+      const double mixed = mixes ? (rate > 0 ? leaving : entering) / larger : 0;
+      if (is_here(cell) && mixed < 1) streams.push_back(from_outside(cell, rate * (1 - mixed), outside));
     }
+    if (!mixes) continue;
     for (const auto& [from, out] : source.rates)
       for (const auto& [to, in] : source.rates) {
         if (out >= 0 || in <= 0) continue;

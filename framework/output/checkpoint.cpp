@@ -13,7 +13,7 @@ namespace sprekk {
 namespace {
 
 const std::string format_name = "sprekk checkpoint";
-constexpr int format_version = 17;  // raised whenever the layout of the file, or the meaning of its values, changes
+constexpr int format_version = 19;  // raised whenever the layout of the file, or the meaning of its values, changes
 
 std::span<const double> span_of(const Vector& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};

@@ -77,6 +77,16 @@ class CarriedByWells(SceneRuns):
                 for name in ("cold[K]", "hot[K]"):
                     self.assertLess(abs(run[name] - 300).max(), 1e-7, shape)
 
+    def test_a_source_that_is_spread_does_not_mix(self):
+        # 1e-7 (1 - x/50) for each m^2: what enters at the left has the given values, what leaves at the right is another place's.
+        path = self.write(scene(PLANE, "quadrilaterals"))
+        run = self.run_scene(path, "components.pore.wells=null", 'components.pore.source="(1e-7*(1 - x/50)) 1/s"',
+                             "couplers.0.injected={source: {concentration: 1 kg/m^3}}", "couplers.1.injected={source: {temperature: 310 K}}")
+        entering = 1e-7 * 0.5 * 50 * 80 * TIME
+        self.assertAlmostEqual(run["tracer_injected[kg/m]"][-1] / entering, 1, delta=1e-9)
+        self.assertGreater(run["most[kg/m^3]"][-1], 0.05)
+        self.assertGreaterEqual(run["least[kg/m^3]"].min(), -1e-9)
+
     def test_turned_and_mirrored(self):
         plain = self.run_scene(self.write(scene(PLANE, "quadrilaterals")))
         for angle, mirror in ((0, True), (90, False)):

@@ -194,6 +194,31 @@ class StiffnessFormula(SceneRuns):
         run = self.fractured("start.settle=[pore, rock, conduit, contact]", "components.conduit.injection.well.rate=0 m^2/s")
         self.assertLess(np.abs(run["u.x[m]"]).max(), 1e-12)
 
+    def test_a_settled_rock_is_the_one_from_which_its_strain_counts(self):
+        """A column between two walls under its weight: with one modulus, E(0), the stress is 0 in its middle, and nothing moves."""
+        text = """
+geometry: {box: {x: [0 m, 1 m], y: [0 m, 20 m]}}
+mesh: {kind: structured, shape: quadrilaterals, cells: [1, 20]}
+components:
+  rock:
+    type: poromechanics/fem
+    order: second
+    young_modulus: "1 GPa*(1 - 0.5*tanh(eps_v/1e-4))"
+    poisson_ratio: 0.25
+    rock_density: 2500 kg/m^3
+    gravity: [0 m/s^2, -10 m/s^2]
+    boundary: {left: {displacement_normal: 0 m}, right: {displacement_normal: 0 m}, bottom: {displacement_normal: 0 m}, top: {displacement_normal: WALL}}
+start: {settle: [rock]}
+schedule: [{solve: [rock]}]
+time: {end: 2 s, step: 1 s}
+output: {probes: {s: {of: rock.stress, at: [0.5 m, 19.5 m]}, below: {of: rock.stress, at: [0.5 m, 0.5 m]}, u: {of: rock.displacement, at: [0.5 m, 7 m]}}}
+"""
+        for wall in ("0 m", "0 m + 0 m/s*t"):
+            run = self.run_scene(self.write(text.replace("WALL", wall)))
+            for quantity, sign in (("s.yy", 1), ("below.yy", -1)):
+                self.assertLess(abs(self.last(run, quantity) / (sign * 2500 * 10 * 9.5) - 1), 1e-9, (wall, quantity))
+            self.assertLess(np.abs(run["u.y[m]"]).max(), 1e-12)
+
     def test_what_is_refused(self):
         formula = "10 GPa*exp(-eps_v/2e-3)"
         for text, message in ((column(formula).replace("/fem", "/mpsa").replace("    order: second\n", ""), "is taken as 'young_modulus' by poromechanics/fem"),

@@ -105,7 +105,8 @@ std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Poin
   if constexpr (dimension == 3) {
     std::vector<std::pair<int, double>> shares = along_fracture(mesh_, cell, point_at(cell, at));
     const bool is_alone = std::ranges::any_of(shares, [&](const auto& share) {
-      return is_prescribed_[share.first] != 0 || transmissivity(share.first).value == 0;
+      const bool may_be_empty = options_.cavitation && share.second < 0;  // nothing can be taken from there
+      return is_prescribed_[share.first] != 0 || transmissivity(share.first).value == 0 || may_be_empty;
     });
     return is_alone ? std::vector<std::pair<int, double>>{{cell, 1.0}} : shares;
   }

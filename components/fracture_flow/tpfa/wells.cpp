@@ -158,6 +158,7 @@ void FractureFlow::share_points() {
     share(point, false);
     FluidSource& source = *std::ranges::find(sources_, point.name, &FluidSource::name);
     source.rates.clear();
+    source.is_shared = true;
     for (const auto& [cell, share] : point.shares) source.rates.emplace_back(cell, point.value * share);
   }
   source_.setZero();
@@ -197,7 +198,7 @@ std::vector<FluidSource> FractureFlow::fluid_sources() const {
   std::vector<FluidSource> sources = sources_;
   for (std::size_t k = 0; k < prescribed_points_.size(); ++k) {
     const double rate = let_in_at_points_->now()[static_cast<Eigen::Index>(k)];
-    sources.push_back({prescribed_points_[k].name, {}});
+    sources.push_back({prescribed_points_[k].name, {}, true});
     for (const auto& [cell, share] : prescribed_points_[k].shares)
       sources.back().rates.emplace_back(cell, share * rate);
   }

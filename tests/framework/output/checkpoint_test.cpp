@@ -148,7 +148,7 @@ TEST_F(CheckpointTest, AnotherFormatVersionIsRefusedWithBothVersions) {
   const std::string message = message_of_reading();
   EXPECT_THAT(message, HasSubstr("version 18"));
   EXPECT_THAT(message, HasSubstr("sprekk 9.8"));
-  EXPECT_THAT(message, HasSubstr("this program reads version 17"));
+  EXPECT_THAT(message, HasSubstr("this program reads version 19"));
 }
 
 TEST_F(CheckpointTest, AnotherSceneIsRefused) {
