@@ -79,9 +79,12 @@ class CarriedByWells(SceneRuns):
 
     def test_a_source_that_is_spread_does_not_mix(self):
         # 1e-7 (1 - x/50) for each m^2: what enters at the left has the given values, what leaves at the right is another place's.
-        path = self.write(scene(PLANE, "quadrilaterals"))
-        run = self.run_scene(path, "components.pore.wells=null", 'components.pore.source="(1e-7*(1 - x/50)) 1/s"',
-                             "couplers.0.injected={source: {concentration: 1 kg/m^3}}", "couplers.1.injected={source: {temperature: 310 K}}")
+        text = scene(PLANE, "quadrilaterals")
+        for of_wells, of_source in (("{low: {concentration: 1 kg/m^3}, side: {concentration: 0.5 kg/m^3}}", "{source: {concentration: 1 kg/m^3}}"),
+                                    ("{low: {temperature: 310 K}, side: {temperature: 290 K}}", "{source: {temperature: 310 K}}")):
+            self.assertIn(of_wells, text)
+            text = text.replace(of_wells, of_source)
+        run = self.run_scene(self.write(text), "components.pore.wells=null", 'components.pore.source="(1e-7*(1 - x/50)) 1/s"')
         entering = 1e-7 * 0.5 * 50 * 80 * TIME
         self.assertAlmostEqual(run["tracer_injected[kg/m]"][-1] / entering, 1, delta=1e-9)
         self.assertGreater(run["most[kg/m^3]"][-1], 0.05)

@@ -298,7 +298,7 @@ schedule: [{solve: [pore, heat]}]""").replace("time: {end: 30000 s, step: 6000 s
                               (closed("0.1 + p"), "has another unit"),
                               (closed("2 + p/(1 GPa)"), "'porosity' is 2.003"),
                               (closed("0.1*exp(-p/(20 MPa))"), "let 'porosity' not fall with p"),
-                              (closed().replace("fluid_compressibility: 0 1/Pa", 'fluid_compressibility: "(1e-10*(1 + t/day)) 1/Pa"'), "'fluid_compressibility' the time"),
+                              (closed().replace("fluid_compressibility: 0 1/Pa", 'fluid_compressibility: "(1e-10*(1 + t/day)) 1/Pa"'), "'fluid_compressibility' depends on time"),
                               (put(pressed, FORMULA="0.1*exp(p/(20 MPa))"), "do not follow the volume of the rock"),
                               (put(pressed, FORMULA="0.1 + eps_v").replace("biot_coefficient: 0.8", "biot_coefficient: 0.8, one_way: true"), "'one_way' contradicts the porosity")):
             refused = self.call("check", self.write(text))
