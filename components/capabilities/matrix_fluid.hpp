@@ -36,9 +36,8 @@ class MatrixFluid {
   /// Whether the porosity is a formula of the state. It then has all changes of the volume of the pores: no other part
   /// may add what a change of the rock's volume, or the compressibility of its grains, stores.
   virtual bool has_pores_by_formula() const { return false; }
-  virtual bool porosity_depends_on(const std::string& /*variable*/) const {
-    return false;
-  }  ///< whether it depends on this
+  /// Whether that formula names this variable of the state.
+  virtual bool porosity_depends_on(const std::string& /*variable*/) const { return false; }
   /// Replaces the viscosity of the scene, Pa s, one a cell. To be called by Part::evaluate_data, in every step.
   virtual void change_viscosity(const Vector& viscosity) = 0;
   /// The diffusivity of the fluid in a cell whose volume does not change, along the direction that conducts best,

@@ -14,13 +14,13 @@ enum class Outcome { made, wrong_input, failed };
 
 void share(std::string& text) {
   std::vector<char> letters(text.begin(), text.end());
-  parallel::take_from_root(letters);
+  parallel::broadcast(letters);
   text.assign(letters.begin(), letters.end());
 }
 
 void share(std::vector<std::string>& texts) {
   std::size_t count = texts.size();
-  parallel::take_from_root(&count, sizeof count);
+  parallel::broadcast(&count, sizeof count);
   texts.resize(count);
   for (std::string& text : texts) share(text);
 }
@@ -28,18 +28,18 @@ void share(std::vector<std::string>& texts) {
 void share(std::vector<Point>& points) {
   std::vector<double> numbers;
   for (const Point& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
-  parallel::take_from_root(numbers);
+  parallel::broadcast(numbers);
   points.resize(numbers.size() / dimension);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = Eigen::Map<const Point>(&numbers[dimension * i]);
 }
 
 // One of the two is used: in a plane, or in space.
-[[maybe_unused]] void share_places(RawMesh::Chain& chain) { parallel::take_from_root(chain.nodes); }
-[[maybe_unused]] void share_places(RawMesh::Surface& surface) { parallel::take_from_root(surface.faces); }
+[[maybe_unused]] void share_places(RawMesh::Chain& chain) { parallel::broadcast(chain.nodes); }
+[[maybe_unused]] void share_places(RawMesh::Surface& surface) { parallel::broadcast(surface.faces); }
 
 void share(std::vector<RawMesh::Fracture>& fractures) {
   std::size_t count = fractures.size();
-  parallel::take_from_root(&count, sizeof count);
+  parallel::broadcast(&count, sizeof count);
   fractures.resize(count);
   for (RawMesh::Fracture& fracture : fractures) {
     share(fracture.name);
@@ -49,10 +49,10 @@ void share(std::vector<RawMesh::Fracture>& fractures) {
 
 void share(RawMesh& mesh) {
   share(mesh.nodes);
-  parallel::take_from_root(mesh.cells);
-  parallel::take_from_root(mesh.regions);
+  parallel::broadcast(mesh.cells);
+  parallel::broadcast(mesh.regions);
   share(mesh.region_names);
-  parallel::take_from_root(mesh.boundary_faces);
+  parallel::broadcast(mesh.boundary_faces);
   share(mesh.side_names);
   share(mesh.fractures);
 }
@@ -73,7 +73,7 @@ RawMesh made_by_root(const std::function<RawMesh()>& make) {
       outcome = Outcome::failed;
       message = error.what();
     }
-  parallel::take_from_root(&outcome, sizeof outcome);
+  parallel::broadcast(&outcome, sizeof outcome);
   if (outcome != Outcome::made) {
     share(message);
     if (outcome == Outcome::wrong_input) throw InputError(message);

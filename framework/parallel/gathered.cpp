@@ -21,7 +21,7 @@ Vector gathered(const Vector& mine, const std::vector<int>& counts) {
   return all;
 }
 
-void take_from_root(void* bytes, std::size_t count) {
+void broadcast(void* bytes, std::size_t count) {
   if (size() == 1) return;
   constexpr std::size_t most = 1 << 30;  // at once: MPI counts with int
   for (std::size_t begin = 0; begin < count; begin += most)
@@ -29,7 +29,7 @@ void take_from_root(void* bytes, std::size_t count) {
               MPI_COMM_WORLD);
 }
 
-void take_from_root(Vector& values) { take_from_root(values.data(), values.size() * sizeof(double)); }
+void broadcast(Vector& values) { broadcast(values.data(), values.size() * sizeof(double)); }
 
 WholeVectors::WholeVectors(const std::vector<int>& mine, int size) {
   if (parallel::size() == 1) return;

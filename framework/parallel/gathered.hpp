@@ -14,15 +14,15 @@ namespace sprekk::parallel {
 Vector gathered(const Vector& mine, const std::vector<int>& counts);
 
 /// Gives all processes the bytes, or the values, of the first. Collective.
-void take_from_root(void* bytes, std::size_t count);
-void take_from_root(Vector& values);  ///< as many on every process
+void broadcast(void* bytes, std::size_t count);
+void broadcast(Vector& values);  ///< as many on every process
 template <class Value>
 requires std::is_trivially_copyable_v<Value>
-void take_from_root(std::vector<Value>& values) {
+void broadcast(std::vector<Value>& values) {
   std::size_t count = values.size();
-  take_from_root(&count, sizeof count);
+  broadcast(&count, sizeof count);
   values.resize(count);
-  take_from_root(values.data(), count * sizeof(Value));
+  broadcast(values.data(), count * sizeof(Value));
 }
 
 /// Makes vectors whole whose entries are distributed over processes, always in the same way.

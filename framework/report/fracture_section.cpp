@@ -193,7 +193,7 @@ std::string fracture_section(const RunResults& results) {
     for (const Grid::Values& sample : through.grids.back()->arrays) {
       if (sample.name == "fracture" || sample.place != Grid::Place::cell) continue;
       for (int c = 0; c < std::min(sample.components, 2); ++c)
-        if (!quiet.takes(title_of(sample, c), column_name(sample.name).unit, values_of(through, sample, c)))
+        if (!quiet.take(title_of(sample, c), column_name(sample.name).unit, values_of(through, sample, c)))
           panels.push_back(panel_along(through, sample, c));
     }
     text += "<h3>" + escaped_markup(names[static_cast<std::size_t>(fracture)]) + "</h3>\n" + html_panels(panels) +

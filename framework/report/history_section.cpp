@@ -104,7 +104,7 @@ std::string history_section(const RunResults& results) {
     if (is_elsewhere || !has_numbers(values)) continue;
     const bool is_probe =
         probes.count(name.quantity) > 0 || probes.count(name.quantity.substr(0, name.quantity.rfind('.'))) > 0;
-    if ((is_probe ? quiet_probes : quiet).takes(name.quantity, name.unit, values)) continue;
+    if ((is_probe ? quiet_probes : quiet).take(name.quantity, name.unit, values)) continue;
     add(is_probe ? probed : reported, name.unit, {name.quantity, times, values, {}});
   }
   const auto part = [&](const char* title, const std::vector<Group>& groups, const QuietValues& undrawn) {
@@ -130,7 +130,7 @@ std::string tip_section(const RunResults& results) {
   QuietValues quiet(sizes_in(results.history));
   for (const ThingColumn& column : columns) {
     const std::vector<double> values = results.history.numbers(column.column);
-    if (quiet.takes(column.thing + "." + column.quantity, column.unit, values)) continue;
+    if (quiet.take(column.thing + "." + column.quantity, column.unit, values)) continue;
     const bool is_alone = quantities[column.unit].size() == 1;
     const std::string title = is_alone ? column.quantity : column.thing;
     auto group = std::find_if(groups.begin(), groups.end(),

@@ -37,7 +37,7 @@ bool SizesOfUnits::are_far_below(const std::string& unit, const std::vector<doub
   return size > 0 && size <= far_below * largest->second;
 }
 
-bool QuietValues::takes(const std::string& name, const std::string& unit, const std::vector<double>& values) {
+bool QuietValues::take(const std::string& name, const std::string& unit, const std::vector<double>& values) {
   if (sizes_.are_far_below(unit, values)) {
     far_below_.push_back(name + ", at most " + display_text(largest_size(values), unit));
     return true;

@@ -28,8 +28,9 @@ class QuietValues {
  public:
   /// `sizes`: of all values beside which these stand.
   explicit QuietValues(SizesOfUnits sizes) : sizes_(std::move(sizes)) {}
-  /// Whether values in time need no curve, since they do not change, or are far below others. Then told() names them.
-  bool takes(const std::string& name, const std::string& unit, const std::vector<double>& values);
+  /// Takes values in time that need no curve, since they do not change, or are far below others; told() names them.
+  /// Returns whether it has.
+  bool take(const std::string& name, const std::string& unit, const std::vector<double>& values);
   /// HTML paragraphs; "" where all is drawn.
   std::string told() const;
 

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""formulas_in_windows_test.py SPREKK: laws that are formulas of the state, and jump at given times: steps end at the jumps, and take the value before
+"""formulas_in_windows_test.py SPREKK [MPIEXEC]: laws that are formulas of the state, and jump at given times: steps end at the jumps, and take the value before
 them. Against the same numbers as data, and against the laws themselves."""
 
 import unittest
 
 import numpy as np
-from scene_runs import SceneRuns
+from scene_runs import MPIEXEC, SceneRuns
 
 COLUMN = """
 geometry: {box: {x: [0 m, 4 m], y: [0 m, 1 m]}}
@@ -55,8 +55,8 @@ def window(value, added):
 
 
 class FormulasInWindows(SceneRuns):
-    def run_with(self, text, setting):
-        run = self.run_scene(self.write(text), setting)
+    def run_with(self, text, *settings, **more):
+        run = self.run_scene(self.write(text), *settings, **more)
         np.testing.assert_allclose(run.times, TIMES, rtol=1e-12)
         return run
 
@@ -75,6 +75,29 @@ class FormulasInWindows(SceneRuns):
                 np.testing.assert_allclose(forms[0] / last, [1, 1, 4, 4, 1], rtol=1e-6)  # the fluid is compressible, by 1e-6
             for form in forms[1:]:
                 np.testing.assert_allclose(form, forms[0], rtol=1e-9, err_msg=where)
+
+    def test_twins(self):
+        # By two stages, in substeps, on two processes, mirrored, and in space, a formula has the answer of the data; a disturbed one almost the same.
+        mirrored = COLUMN.replace("left: {pressure: 1 MPa}, right: {pressure: 0 Pa}", "right: {pressure: 1 MPa}, left: {pressure: 0 Pa}")
+        in_space = COLUMN.replace("y: [0 m, 1 m]", "y: [0 m, 1 m], z: [0 m, 1 m]").replace("quadrilaterals, cells: [4, 1]", "hexahedra, cells: [4, 1, 1]")
+        substeps = "schedule=[{subcycle: {count: 3, steps: [{solve: STEPS}]}}]"
+        variants = [(COLUMN, ("time.scheme=sdirk2",), 1), (COLUMN, (substeps.replace("STEPS", "pore"),), 1), (mirrored, (), 1), (in_space, (), 1),
+                    (SHEARED, ("time.scheme=sdirk2",), 1), (SHEARED, (substeps.replace("STEPS", "[rock, contact]"),), 1)]
+        if MPIEXEC:
+            variants += [(COLUMN, (), 2), (SHEARED, (), 2)]
+        for text, settings, processes in variants:
+            is_flow = text is not SHEARED
+            where, value, added, nothing = (("components.pore.permeability", 1e-15, "3e-15 m^2", " m^2*(1 + 0*p/(1 Pa))") if is_flow
+                                            else ("components.contact.friction", 0.3, "0.2", " + 0*slip/(1 m)"))
+            laws = (f"{value}{' m^2' if is_flow else ''}", f"{value}{nothing}", f"{value * (1 + 1e-9)!r}{nothing}")
+            runs = [self.run_with(text, f"{where}={window(law, added)}", *settings, processes=processes) for law in laws]
+            column = "traction.t[Pa]" if not is_flow else next(
+                name for name in runs[0].history if name.startswith("pore.left.outflow" if text is mirrored else "pore.right.outflow"))
+            data, formula, disturbed = (run[column] for run in runs)
+            np.testing.assert_allclose(formula, data, rtol=1e-9, err_msg=f"{settings} {processes}")
+            np.testing.assert_allclose(disturbed, data, rtol=1e-8, err_msg=f"{settings} {processes}")
+            if is_flow:
+                np.testing.assert_allclose(data / data[0], [1, 1, 4, 4, 1], rtol=1e-9, err_msg=f"{settings} {processes}")
 
     def test_cohesion(self):
         for value in ("1 MPa", "1 MPa + 0*slip*(1 Pa/m)"):

@@ -11,6 +11,8 @@ import unittest
 
 import numpy as np
 
+import formula_scenes
+from formula_scenes import put
 from scene_runs import SceneRuns, on_two_processes
 
 K, MU, LENGTH, HEIGHT, HIGH = 1e-15, 1e-3, 1.0, 0.4, 3e6  # m^2, Pa s, m, m, Pa
@@ -53,49 +55,8 @@ schedule: [{solve: [pore, rock]}]
 time: {end: 2 s, step: 1 s}
 output: {fields: false}
 """
-# All together: rock, its fluid, a fracture that is injected into, and a well in the rock.
-FRACTURED = """
-geometry:
-  box: {x: [-5 m, 5 m], y: [-5 m, 5 m]}
-  fractures: {cut: {points: [[-1.3 m, -0.6 m], [1.2 m, 0.7 m]]}}
-mesh: {size: 1.8 m, fracture_size: 0.5 m}
-materials: {young_modulus: 10 GPa, poisson_ratio: 0.2, biot_coefficient: 0.8}
-components:
-  pore:
-    type: matrix_flow/mpfa
-    permeability: "FORMULA"
-    viscosity: 1 mPa*s
-    porosity: 0.1
-    fluid_compressibility: 4e-10 1/Pa
-    boundary: {left: {pressure: "0.2 MPa"}, right: {pressure: 0 MPa}}
-    wells: {w: {at: [2.3 m, -2.1 m], rate: 2e-7 m^2/s}}
-  rock:
-    type: poromechanics/mpsa
-    initial_stress: {xx: -12 MPa, yy: -9 MPa, xy: 1 MPa}
-    boundary: {left: {displacement: [0 m, 0 m]}, right: {displacement: [0 m, 0 m]}, bottom: {displacement: [0 m, 0 m]}, top: {displacement: [0 m, 0 m]}}
-  conduit:
-    type: fracture_flow/tpfa
-    viscosity: 1 mPa*s
-    fluid_compressibility: 4e-10 1/Pa
-    initial_aperture: 0.2 mm
-    injection: {well: {at: [-1 m, -0.4 m], rate: "(RATE) m^2/s"}}
-  contact: {type: contact/coulomb, friction: 0.6, closure: {law: linear, stiffness: 100 GPa/m}}
-couplers:
-  - {type: biot, between: [pore, rock]}
-  - {type: wall_exchange, between: [pore, conduit]}
-  - {type: wall_traction, between: [rock, contact, conduit]}
-  - {type: aperture, between: [contact, conduit]}
-schedule: [{solve: [pore, rock, conduit, contact]}]
-time: {end: 600 s, step: 200 s}
-output: {every: 600 s, probes: {p: {of: pore.pressure, at: [1 m, 2 m]}, peak: {of: conduit.pressure, take: largest}, u: {of: rock.displacement, at: [0.3 m, 1.1 m]}}}
-"""
 STRAINED = "1e-15 m^2*(1 + 0.5*tanh(eps_v/(0.05e-3)) + 0.5*tanh(p/(2 MPa)))"
 
-
-def put(text, **values):
-    for name, value in values.items():
-        text = text.replace(name, str(value))
-    return text
 
 
 def column(formula=f"1e-15 m^2*{EXPONENTIAL}", kind="mpfa", mesh=None, cells=10, storage="0 1/Pa"):
@@ -197,7 +158,7 @@ class PermeabilityFormula(SceneRuns):
             self.assertLess(self.largest_difference(formula, constant), 1e-12)
 
     def fractured(self, *settings, formula=STRAINED, rate="3e-6", **more):
-        return self.run_scene(self.write(put(FRACTURED, FORMULA=formula, RATE=rate)), *settings, **more)
+        return self.run_scene(self.write(formula_scenes.fractured((1.8, 0.5), rate, PERMEABILITY=formula)), *settings, **more)
 
     def test_schedules_have_one_answer(self):
         whole = self.fractured()

@@ -8,6 +8,7 @@ Twins: another place by 1e-9, a mirror image, two processes."""
 
 import math
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -160,6 +161,42 @@ time: {end: 1 day, step: 1 day}
             if shape == "hexahedra":
                 self.assertLess(np.ptp(found[0][-4:]), 1e-9 * found[0][-1])
                 self.assertLess(found[0][-5], 0.999 * found[0][-1])
+
+
+class BesideALeakySide(SpaceRuns):
+    def test_gmres_goes_on_where_the_solution_of_a_block_is_next_to_nothing(self):
+        # What leaves through the leaky side is zero, and its residual is as large as its terms however small both are.
+        file = Path(__file__).parent / "meshes/graded_tetrahedra.msh"
+        at_rest = "1500*x - 2000*y - 9200*z"
+        path = self.write(f"""
+geometry: {{file: {file}}}
+components:
+  pore:
+    type: matrix_flow/mpfa
+    permeability: 1e-14 m^2
+    viscosity: 1 mPa*s
+    porosity: {{regions: {{low: 0.1, high: 0.03}}}}
+    fluid_compressibility: 4.5e-10 1/Pa
+    initial_pressure: "(1e7 + {at_rest}) Pa"
+    boundary:
+      left: {{pressure: "(1.05e7 + {at_rest}) Pa"}}
+      bottom: {{outer_pressure: "(9.9e6 + {at_rest}) Pa", conductance: 2e-11 m/(Pa*s), only_out: true}}
+  conduit:
+    type: fracture_flow/mfd
+    viscosity: 1 mPa*s
+    fluid_compressibility: 4.5e-10 1/Pa
+    initial_aperture: 0.3 mm
+    initial_pressure: "(1e7 + {at_rest}) Pa"
+    prescribed: {{out: {{fracture: fb, at: [80 m, 45 m, 30 m], pressure: 9 MPa}}}}
+couplers: [{{type: wall_exchange, between: [pore, conduit]}}]
+schedule: [{{solve: [pore, conduit]}}]
+time: {{end: 1 day, step: 1 day, smallest: 0.4 day}}
+output: {{fields: false, probes: {{p: {{of: pore.pressure, at: [50 m, 33 m, 33 m]}}}}}}
+""")
+        direct, found = (self.run_scene(path, f"solver={{type: {solver}}}") for solver in ("umfpack", "belos"))
+        self.assertEqual(found.record["counters"]["steps rejected"], 0)
+        for column in ("p[Pa]", "conduit.out.rate[m^3/s]"):
+            self.assertAlmostEqual(found[column][-1] / direct[column][-1], 1, delta=1e-6, msg=column)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,8 @@ import unittest
 
 import numpy as np
 
+import formula_scenes
+from formula_scenes import put
 from scene_runs import ROOT, SceneRuns, on_two_processes
 
 WINGS = ROOT / "configs/paper/wing_cracks.yaml"
@@ -71,51 +73,10 @@ schedule: [{solve: [pore, rock]}]
 time: {end: 2 s, step: 1 s}
 output: {probes: {p: {of: pore.pressure, take: largest}}}
 """
-# All together: rock, its fluid, a fracture that is injected into, and a well in the rock.
-FRACTURED = """
-geometry:
-  box: {x: [-5 m, 5 m], y: [-5 m, 5 m]}
-  fractures: {cut: {points: [[-1.3 m, -0.6 m], [1.2 m, 0.7 m]]}}
-mesh: {size: 2 m, fracture_size: 0.6 m}
-materials: {young_modulus: 10 GPa, poisson_ratio: 0.2, biot_coefficient: 0.8}
-components:
-  pore:
-    type: matrix_flow/mpfa
-    permeability: 1e-15 m^2
-    viscosity: 1 mPa*s
-    porosity: "FORMULA"
-    fluid_compressibility: COMPRESSIBILITY 1/Pa
-    boundary: {left: {pressure: "0.2 MPa"}, right: {pressure: 0 MPa}}
-    wells: {w: {at: [2.3 m, -2.1 m], rate: 2e-7 m^2/s}}
-  rock:
-    type: poromechanics/mpsa
-    initial_stress: {xx: -12 MPa, yy: -9 MPa, xy: 1 MPa}
-    boundary: {left: {displacement: [0 m, 0 m]}, right: {displacement: [0 m, 0 m]}, bottom: {displacement: [0 m, 0 m]}, top: {displacement: [0 m, 0 m]}}
-  conduit:
-    type: fracture_flow/tpfa
-    viscosity: 1 mPa*s
-    fluid_compressibility: 4e-10 1/Pa
-    initial_aperture: 0.2 mm
-    injection: {well: {at: [-1 m, -0.4 m], rate: "(RATE) m^2/s"}}
-  contact: {type: contact/coulomb, friction: 0.6, closure: {law: linear, stiffness: 100 GPa/m}}
-couplers:
-  - {type: biot, between: [pore, rock]}
-  - {type: wall_exchange, between: [pore, conduit]}
-  - {type: wall_traction, between: [rock, contact, conduit]}
-  - {type: aperture, between: [contact, conduit]}
-schedule: [{solve: [pore, rock, conduit, contact]}]
-time: {end: 600 s, step: 200 s}
-output: {every: 600 s, probes: {p: {of: pore.pressure, at: [1 m, 2 m]}, peak: {of: conduit.pressure, take: largest}, u: {of: rock.displacement, at: [0.3 m, 1.1 m]}}}
-"""
-BULK = 10e9 / (3 * (1 - 0.4))  # Pa, of FRACTURED
+BULK = 10e9 / (3 * (1 - 0.4))  # Pa, of formula_scenes.fractured
 OF_BIOT = f"0.1 + 0.8*eps_v + {0.7 / BULK!r}*p/Pa"
 YIELDING = "0.1*exp(p/(20 MPa)) + 0.8*eps_v*(1 + eps_v/1e-4)"
 
-
-def put(text, **values):
-    for name, value in values.items():
-        text = text.replace(name, str(value))
-    return text
 
 
 def closed(formula=f"{PORES}*exp(p/(20 MPa))", kind="mpfa", compressibility="0"):
@@ -228,7 +189,7 @@ schedule: [{solve: [pore, heat]}]""").replace("time: {end: 30000 s, step: 6000 s
         self.assertLess(abs(self.last(self.run_scene(self.write(text)), "p") / known - 1), 1e-8)
 
     def fractured(self, *settings, formula=YIELDING, rate="3e-6", compressibility="4e-10", **more):
-        return self.run_scene(self.write(put(FRACTURED, FORMULA=formula, RATE=rate, COMPRESSIBILITY=compressibility)), *settings, **more)
+        return self.run_scene(self.write(formula_scenes.fractured((2, 0.6), rate, POROSITY=formula, COMPRESSIBILITY=compressibility)), *settings, **more)
 
     def test_a_constant_and_biots_terms_as_formulas(self):
         constant, formula = (self.run_scene(self.write(closed(text, compressibility="4e-10"))) for text in ("0.1", "max(0.1, p/(1e12 Pa))"))

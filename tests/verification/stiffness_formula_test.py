@@ -11,6 +11,8 @@ import unittest
 
 import numpy as np
 
+import formula_scenes
+from formula_scenes import put
 from scene_runs import SceneRuns, on_two_processes
 
 UNIAXIAL = 0.75 / (1.25 * 0.5)  # (lambda + 2 G)/E where nu = 1/4
@@ -33,51 +35,9 @@ FLOW = """  pore: {type: matrix_flow/tpfa, permeability: 1e-15 m^2, viscosity: 1
 couplers: [{type: biot, between: [pore, rock], biot_coefficient: 0.6}]"""
 HEAT = """  heat: {type: matrix_heat/tpfa, conductivity: 2 W/(m*K), heat_capacity: 2e6 J/(m^3*K), initial_temperature: 300 K, boundary: {top: {temperature: HOT K}, bottom: {temperature: 350 K}}}
 couplers: [{type: thermal_stress, between: [heat, rock], expansion: 1e-5 1/K}]"""
-# Rock, its fluid and a fracture that is injected into.
-FRACTURED = """
-geometry:
-  box: {x: [-5 m, 5 m], y: [-5 m, 5 m]}
-  fractures: {cut: {points: [[-1.3 m, -0.6 m], [1.2 m, 0.7 m]]}}
-mesh: {size: 2.5 m, fracture_size: 0.7 m}
-materials: {biot_coefficient: 0.8}
-components:
-  pore:
-    type: matrix_flow/mpfa
-    permeability: 1e-15 m^2
-    viscosity: 1 mPa*s
-    porosity: 0.1
-    fluid_compressibility: 4e-10 1/Pa
-    boundary: {left: {pressure: "0.2 MPa"}, right: {pressure: 0 MPa}}
-  rock:
-    type: poromechanics/fem
-    order: second
-    young_modulus: "FORMULA"
-    poisson_ratio: 0.2
-    initial_stress: {xx: -12 MPa, yy: -9 MPa, xy: 1 MPa}
-    boundary: {left: {displacement: [0 m, 0 m]}, right: {displacement: [0 m, 0 m]}, bottom: {displacement: [0 m, 0 m]}, top: {displacement: [0 m, 0 m]}}
-  conduit:
-    type: fracture_flow/tpfa
-    viscosity: 1 mPa*s
-    fluid_compressibility: 4e-10 1/Pa
-    initial_aperture: 0.2 mm
-    injection: {well: {at: [-1 m, -0.4 m], rate: "(RATE) m^2/s"}}
-  contact: {type: contact/coulomb, friction: 0.6, closure: {law: linear, stiffness: 100 GPa/m}}
-couplers:
-  - {type: biot, between: [pore, rock]}
-  - {type: wall_exchange, between: [pore, conduit]}
-  - {type: wall_traction, between: [rock, contact, conduit]}
-  - {type: aperture, between: [contact, conduit]}
-schedule: [{solve: [pore, rock, conduit, contact]}]
-time: {end: 600 s, step: 200 s}
-output: {every: 600 s, probes: {p: {of: pore.pressure, at: [1 m, 2 m]}, peak: {of: conduit.pressure, take: largest}, u: {of: rock.displacement, at: [0.3 m, 1.1 m]}}}
-"""
+ROCK = {"ROCK": "poromechanics/fem\n    order: second", "WELLS": ""}  # of the fractured scene
 SOFTENED = "10 GPa*(1 - 0.5*tanh(p/(3 MPa)) + 0.3*tanh(eps_v/1e-4))"
 
-
-def put(text, **values):
-    for name, value in values.items():
-        text = text.replace(name, str(value))
-    return text
 
 
 def column(formula, parts="", names="rock"):
@@ -155,7 +115,7 @@ class StiffnessFormula(SceneRuns):
         self.assertGreater(math.log2(errors[-2] / errors[-1]), 1.8, msg=errors)
 
     def fractured(self, *settings, formula=SOFTENED, rate="3e-6", **more):
-        return self.run_scene(self.write(put(FRACTURED, FORMULA=formula, RATE=rate)), *settings, **more)
+        return self.run_scene(self.write(formula_scenes.fractured((2.5, 0.7), rate, YOUNG=formula, **ROCK)), *settings, **more)
 
     def test_a_constant_as_a_formula(self):
         constant, formula = (self.fractured(formula=text) for text in ("10 GPa", "max(10 GPa, p*1e-6)"))
@@ -171,7 +131,7 @@ class StiffnessFormula(SceneRuns):
         self.assertGreater(self.largest_difference(self.fractured(formula="10 GPa"), whole), 1e-2)
 
     def test_turned_and_mirrored(self):
-        scene = self.write(put(FRACTURED, FORMULA=SOFTENED, RATE="3e-6"))
+        scene = self.write(formula_scenes.fractured((2.5, 0.7), YOUNG=SOFTENED, **ROCK))
         one = self.run_scene(scene, "mesh.size=1.2 m", "mesh.fracture_size=0.35 m")
         for mirror in (False, True):
             other = self.run_scene(self.turned(scene, 35, "mesh.size=1.2 m", "mesh.fracture_size=0.35 m", mirror=mirror))

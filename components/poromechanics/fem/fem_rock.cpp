@@ -202,11 +202,13 @@ void FemRock::count_from_equilibrium() {
 
 void FemRock::begin_step(const StepTime& step) {
   evaluate_data(step);
+  const long before = discretizations_;
   discretize();
-  if (young_ && take_young()) used_alpha_ = 0;
+  const bool is_other_modulus = young_ && take_young();
+  if (is_other_modulus) used_alpha_ = 0;
   use_loads();
   use_given();
-  if (young_) use_young();
+  if (is_other_modulus || (young_ && discretizations_ > before)) use_young();
 }
 
 void FemRock::assemble(Assembly& assembly, const StepTime&) const {

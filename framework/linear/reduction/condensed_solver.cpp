@@ -261,7 +261,7 @@ LinearReport CondensedSolver::solve_reduced(const Vector& b, Vector& x) {
   if (!all_say(report.solved))
     return report.solved ? LinearReport::failure("another process could not solve for the unknowns on fractures")
                          : report;
-  parallel::take_from_root(x);
+  parallel::broadcast(x);
   return report;
 }
 

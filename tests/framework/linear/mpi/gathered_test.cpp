@@ -38,13 +38,13 @@ TEST(WholeVectors, MayHaveNothingOfOneProcess) {
 
 TEST(TakeFromRoot, TakesListsOfAnyLength) {
   std::vector<int> list = is_root() ? std::vector<int>{3, 1, 4} : std::vector<int>{1};
-  take_from_root(list);
+  broadcast(list);
   EXPECT_EQ(list, (std::vector<int>{3, 1, 4}));
   std::vector<double> none = is_root() ? std::vector<double>{} : std::vector<double>{2.0};
-  take_from_root(none);
+  broadcast(none);
   EXPECT_TRUE(none.empty());
   Vector same = is_root() ? Vector(Eigen::Vector2d(0.1, 0.2)) : Vector(Eigen::Vector2d(9, 9));
-  take_from_root(same);
+  broadcast(same);
   EXPECT_EQ(same, Vector(Eigen::Vector2d(0.1, 0.2)));
 }
 
