@@ -103,8 +103,11 @@ class Biot : public Coupler,
   void begin_step(const StepTime&) override { found_.begin_step(); }
   void accepted() override { found_.accepted(); }
   void rewound() override { found_.rewound(); }
-  void carry_over(const Part& before, const MeshChange&) override {
-    found_.restore(dynamic_cast<const Biot&>(before).found_.share());
+  void carry_over(const Part& part, const MeshChange& change) override {
+    const auto& before = dynamic_cast<const Biot&>(part);
+    found_.restore(before.found_.share());
+    if (stores_volume() && !change.is_at_start)
+      uncounted_ = shared_in_cells(change, before.mesh_, before.volume_now() - before.counted_volume_.accepted());
   }
   void save(std::map<std::string, Vector>& state) const override {
     if (finds_modulus()) state[key_of_found()] = Vector::Constant(1, found_.share());
@@ -162,12 +165,11 @@ class Biot : public Coupler,
   }
 
   /// A change of the mesh must not change the fluid in the pores: the volume that has been counted becomes the volume
-  /// of the same state on the new mesh. The difference of both totals is spread evenly over the new cells, so that the
-  /// total of the fluid stays to the last digit.
+  /// of the same state on the new mesh, without what was not counted before. The difference of both totals is spread
+  /// evenly over the new cells, so that the total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
     if (!stores_volume() || change.is_at_start) return;
-    Vector volume = rock_.volume_change().now();
-    exchange(mesh_, Location::cell, 1, volume);
+    Vector volume = volume_now() - uncounted_;
     double difference = 0, area = 0;
     for (int c = 0; c < mesh_.cell_count(); ++c) {
       difference += alpha_in_fluid_[c] * (volume[c] - counted_volume_.accepted()[c]);
@@ -181,9 +183,7 @@ class Biot : public Coupler,
   /// Where displacements are zero, any change of volume is round-off.
   void count_amounts_from_here(const SettledFields& settled) override {
     if (!stores_volume() || settled.fields.empty()) return;
-    Vector volume = rock_.volume_change().now();
-    exchange(mesh_, Location::cell, 1, volume);
-    counted_volume_.set_both(std::move(volume));
+    counted_volume_.set_both(volume_now());
   }
 
   void begin_totals() override { stored_.set_both(Vector::Zero(stored_.size())); }
@@ -274,6 +274,12 @@ class Biot : public Coupler,
   static constexpr const char* undrained = "undrained";  ///< the name of a stabilization
 
   /// Whether a change of the rock's volume is added to the balance of the fluid.
+  /// The change of volume of each cell in the present state. Collective.
+  Vector volume_now() const {
+    Vector volume = rock_.volume_change().now();
+    exchange(mesh_, Location::cell, 1, volume);
+    return volume;
+  }
   bool stores_volume() const { return !decoupled_ && !options_.one_way && !fluid_.has_pores_by_formula(); }
 
   void check_pores() const {
@@ -375,6 +381,7 @@ class Biot : public Coupler,
   const RockStress* stress_;  ///< nullptr where the rock does not give it
   const RockState* state_;    ///< the same
   Field& counted_volume_;
+  Vector uncounted_;  ///< m^3 (m^2): of the change of volume, on a mesh that has changed: a later solve counts it
   Field& stored_;
   Origin origin_;
   BiotOptions options_;

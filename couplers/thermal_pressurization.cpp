@@ -113,15 +113,31 @@ class ThermalPressurization : public Coupler, public FollowsMesh, public KeepsTo
   void after_solve(const std::vector<Field*>& solved, const StepTime&) override {
     for (Place& place : places_) {
       if (std::ranges::count(solved, &place.pressure) == 0) continue;
-      const Vector warmed = place.temperature.now() - place.counted->accepted();
-      place.stored->set(place.stored->accepted() - place.expansion.cwiseProduct(widths(place)).cwiseProduct(warmed));
+      place.stored->set(place.stored->accepted() - expanded(place));
       place.counted->set(place.temperature.now());
     }
   }
 
-  /// On another mesh the fluid has the temperature that has been found there.
+  void carry_over(const Part& part, const MeshChange& change) override {
+    if (change.is_at_start) return;
+    const auto& before = dynamic_cast<const ThermalPressurization&>(part);
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const Vector expanded = before.expanded(before.places_[k]);
+      places_[k].uncounted = places_[k].is_in_fractures ? shared_in_fracture_cells(change, expanded)
+                                                        : shared_in_cells(change, before.mesh_, expanded);
+    }
+  }
+  /// On another mesh the fluid has the temperature that has been found there, and what was not counted before is
+  /// counted later.
   void settled(const MeshChange& change) override {
-    if (!change.is_at_start) count_from_now();
+    if (change.is_at_start) return;
+    for (Place& place : places_) {
+      const Vector expanding = place.expansion.cwiseProduct(widths(place));
+      Vector counted = place.temperature.now();
+      for (int i = 0; i < counted.size(); ++i)
+        if (expanding[i] > 0) counted[i] -= place.uncounted[i] / expanding[i];
+      place.counted->set_both(std::move(counted));
+    }
   }
   void count_amounts_from_here(const SettledFields&) override { count_from_now(); }
   void begin_totals() override {
@@ -165,6 +181,7 @@ class ThermalPressurization : public Coupler, public FollowsMesh, public KeepsTo
     Vector expansion;  ///< volume per kelvin of each cell; in fractures per aperture
     Field* counted = nullptr;
     Field* stored = nullptr;
+    Vector uncounted = {};  ///< on a mesh that has changed: volume by which the fluid has expanded, for a later solve
   };
 
   Vector of_rock(const CouplerContext& context, const ThermalPressurizationOptions& options,
@@ -206,6 +223,12 @@ class ThermalPressurization : public Coupler, public FollowsMesh, public KeepsTo
 
   void count_from_now() {
     for (Place& place : places_) place.counted->set_both(place.temperature.now());
+  }
+
+  /// The volume by which each cell has expanded since it was counted.
+  Vector expanded(const Place& place) const {
+    return place.expansion.cwiseProduct(widths(place)).cwiseProduct(place.temperature.now() -
+                                                                    place.counted->accepted());
   }
 
   /// The part of each fracture cell that has fluid.

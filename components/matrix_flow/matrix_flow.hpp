@@ -326,6 +326,7 @@ class MatrixFlow : public Component,
   Property viscosity_, porosity_, compressibility_;
   Property storage_;                             ///< 1/Pa; of pores by a formula: the derivative of what they hold
   std::unique_ptr<FormulaOfCells> pores_;        ///< nullptr where the porosity does not follow the state
+  Vector uncounted_;  ///< with pores_ only, on a mesh that has changed: what they hold, and a later solve counts
   Field* content_ = nullptr;                     ///< with pores_ only: what pores hold, m^2
   std::unique_ptr<StatePermeability> by_state_;  ///< nullptr where the permeability does not follow the state
   DifferentiateFluxes differentiate_;

@@ -129,12 +129,13 @@ void MatrixFlow::count_amounts_from_here(const SettledFields&) {
   content_->set_both(content_now());
 }
 
-/// A change of the mesh must not change the fluid in the pores: from now on they hold what the state says, and the
-/// difference of both totals is spread evenly over the new cells.
+/// A change of the mesh must not change the fluid in the pores: from now on they hold what the state says, without what
+/// was not counted before, and the difference of both totals is spread evenly over the new cells.
 void MatrixFlow::settled(const MeshChange& change) {
   if (!pores_ || change.is_at_start) return;
   take_pores(evaluated_for_);
   Vector content = content_now();
+  content(Eigen::seq(0, Eigen::last, parts)) -= uncounted_;
   double difference = 0, area = 0;
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     for (int part = 0; part < parts; ++part)

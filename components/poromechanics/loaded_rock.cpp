@@ -6,6 +6,7 @@
 #include "components/poromechanics/principal_stress.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/mesh/mesh_change.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -43,9 +44,22 @@ void LoadedRock::offer_state(const std::string& variable, const StateField& sour
 void LoadedRock::take_initial_young() {
   if (!young_ || !young_->state().has_all()) return;
   young_->evaluate({start_time_, 0, start_time_});
-  initial_young_ = young_->values();
+  use_initial_young(young_->values());
+}
+
+void LoadedRock::use_initial_young(const Vector& values) {
+  SPREKK_EXPECT(values.size() == mesh_.cell_count(), values.size());
+  initial_young_ = values;
   ratio_ = Vector::Ones(mesh_.cell_count());
   stiffness_.set_initial_young_modulus(initial_young_);
+}
+
+void LoadedRock::keep_references(const LoadedRock& before, const MeshChange& change) {
+  SPREKK_EXPECT(loads_.size() == before.loads_.size(), loads_.size(), before.loads_.size());
+  for (std::size_t k = 0; k < loads_.size(); ++k)
+    for (std::size_t c = 0; c < change.cell.size(); ++c)
+      if (change.cell[c] != none)
+        loads_[k].reference[static_cast<Eigen::Index>(c)] = before.loads_[k].reference[change.cell[c]];
 }
 
 void LoadedRock::require_state() const {
@@ -163,12 +177,15 @@ void LoadedRock::add_jumps(Vector& owned) const {
 void LoadedRock::save(std::map<std::string, Vector>& state) const {
   if (settled_) settled_->save(name(), state);
   save_loads(name(), loads_, state);
+  if (young_) state[key_of_young(name())] = initial_young_;
   if (jumps_.size() > 0) state[key_of_jumps(name())] = jumps_;
 }
 
 void LoadedRock::restore(const std::map<std::string, Vector>& state) {
   settled_ = SettledRock::restored(name(), state);
   restore_loads(name(), loads_, state);
+  if (const auto kept = state.find(key_of_young(name())); young_ && kept != state.end())
+    use_initial_young(kept->second);
   if (const auto kept = state.find(key_of_jumps(name())); kept != state.end()) jumps_ = kept->second;
   data_evaluated_ = false;
 }

@@ -21,6 +21,10 @@
 #include "framework/assembly/notes_start.hpp"
 #include "framework/scene/component.hpp"
 
+namespace sprekk {
+struct MeshChange;
+}
+
 namespace sprekk::poromechanics {
 
 /// The unknown displacement u, counted from the reference state with the initial stress and pressure or from a state
@@ -84,6 +88,8 @@ class LoadedRock : public Component,
   std::uint64_t alpha_version() const;
   /// Takes the present stress for that of the state from which displacements are counted, and begins to count.
   virtual void count_from_equilibrium() = 0;
+  /// On a mesh that has changed: loads are counted from the same values as before, where cells are kept.
+  void keep_references(const LoadedRock& before, const MeshChange& change);
   /// Keeps the present stress and jumps of walls as those of such a state. Arguments as of SettledRock.
   void keep_settled(Vector forces, Vector displacements);
   /// Adds the jumps that walls have while u = 0 to those of the owned fracture cells, m.
@@ -108,6 +114,7 @@ class LoadedRock : public Component,
   Vector initial_young_;  ///< Pa, one a cell; empty without a formula
   /// Takes Young's modulus of the initial state, as soon as all variables that its formula names have been offered.
   void take_initial_young();
+  void use_initial_young(const Vector& values);
 
  private:
   double start_time_;

@@ -48,20 +48,27 @@ inline bool has_settled_loads(const std::vector<PoreLoad>& loads) {
   return std::ranges::any_of(loads, &PoreLoad::is_settled);
 }
 
-/// References of settled states as named values of the component `name`, for checkpoints.
+/// The name of the references of settled, or of initial, states among the values of the component `name`.
+inline std::string key_of_reference(const std::string& name, const PoreLoad& load, bool is_settled) {
+  return name + (is_settled ? ".settled." : ".reference.") + load.pressure->name();
+}
+
+/// References for checkpoints, also initial ones: a run that begins with this state counts from them, although what
+/// gives the pressure may have another value at its start.
 inline void save_loads(const std::string& name, const std::vector<PoreLoad>& loads,
                        std::map<std::string, Vector>& state) {
-  for (const PoreLoad& load : loads)
-    if (load.is_settled) state[name + ".settled." + load.pressure->name()] = load.reference;
+  for (const PoreLoad& load : loads) state[key_of_reference(name, load, load.is_settled)] = load.reference;
 }
 
 inline void restore_loads(const std::string& name, std::vector<PoreLoad>& loads,
                           const std::map<std::string, Vector>& state) {
   for (PoreLoad& load : loads)
-    if (const auto kept = state.find(name + ".settled." + load.pressure->name()); kept != state.end()) {
-      load.reference = kept->second;
-      load.is_settled = true;
-    }
+    for (const bool is_settled : {false, true})
+      if (const auto kept = state.find(key_of_reference(name, load, is_settled));
+          kept != state.end() && kept->second.size() == load.reference.size()) {
+        load.reference = kept->second;
+        load.is_settled = is_settled;
+      }
 }
 
 }  // namespace sprekk::poromechanics

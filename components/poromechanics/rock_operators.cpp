@@ -86,6 +86,7 @@ void Rock::discretize() {
 void Rock::carry_over(const Part& part, const MeshChange& change) {
   const Rock& before = dynamic_cast<const Rock&>(part);
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
+  if (!change.is_at_start) keep_references(before, change);
   if (wall_remainder_ && change.is_at_rest) carried_traction_ = wall_traction_->accepted();
   if (wall_remainder_ && !change.is_at_rest)
     wall_remainder_->set_both(covered_parts(change, mesh_).prod() * wall_remainder_->accepted());

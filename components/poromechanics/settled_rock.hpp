@@ -22,6 +22,7 @@ struct SettledRock {
 };
 
 /// The name in checkpoints of the jumps that walls have while u = 0.
+inline std::string key_of_young(const std::string& name) { return name + ".initial_young_modulus"; }
 inline std::string key_of_jumps(const std::string& name) { return name + ".jumps_at_rest"; }
 
 }  // namespace sprekk::poromechanics

@@ -113,12 +113,20 @@ void Advection::report(std::vector<Quantity>& quantities) const {
     if (fluid[well])
       quantities.push_back(
           {name() + "." + wells_.wells->names()[well] + "." + carried_.value, carried_.unit, fluid[well]->value});
+  // Cells that a shared rate passes the other way mix with the others inside of the place.
+  const auto mean_of_source = [&](const FluidSource& source, const Vector& value) {
+    double net = 0;
+    for (const auto& [cell, rate] : source.rates) net += rate;
+    std::vector<std::pair<int, double>> rates = source.rates;
+    if (source.is_shared) std::erase_if(rates, [&](const auto& rate) { return rate.second * net < 0; });
+    mean(source.name, value, rates);
+  };
   if (rock_.value)
     for (const FluidSource& source : matrix_->fluid_sources())
-      if (source.name != "source") mean(source.name, rock_.value->now(), source.rates);
+      if (source.name != "source") mean_of_source(source, rock_.value->now());
   if (!fractures_.value) return;
   const Vector& value = fractures_.value->now();
-  for (const FluidSource& source : fracture_->fluid_sources()) mean(source.name, value, source.rates);
+  for (const FluidSource& source : fracture_->fluid_sources()) mean_of_source(source, value);
   for (const FluidReservoir& reservoir : fracture_->fluid_reservoirs()) {
     std::vector<std::pair<int, double>> rates;
     for (const Stream& stream : streams_of_fractures(sources(), now))

@@ -12,7 +12,7 @@ namespace {
 void add_to(std::vector<FluidSource>& sums, const std::vector<FluidSource>& sources, double factor) {
   for (const FluidSource& source : sources) {
     auto sum = std::ranges::find(sums, source.name, &FluidSource::name);
-    if (sum == sums.end()) sum = sums.insert(sums.end(), FluidSource{source.name, {}});
+    if (sum == sums.end()) sum = sums.insert(sums.end(), FluidSource{source.name, {}, source.is_shared});
     for (std::size_t i = 0; i < source.rates.size(); ++i) {
       const auto& [cell, rate] = source.rates[i];
       const bool is_next = i < sum->rates.size() && sum->rates[i].first == cell;  // as a rule

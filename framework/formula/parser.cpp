@@ -136,8 +136,13 @@ class Parser {
   std::string next_token() {
     skip_blanks();
     std::size_t end = at_;
-    while (end < text_.size() && (is_name_byte(text_[end]) || text_[end] == '.')) ++end;
-    return text_.substr(at_, std::max<std::size_t>(end - at_, 1));
+    const auto is_name = [&] { return end < text_.size() && (is_name_byte(text_[end]) || text_[end] == '.'); };
+    const auto continues_character = [&] { return end < text_.size() && (text_[end] & 0xc0) == 0x80; };  // in UTF-8
+    if (!is_name() && end < text_.size()) ++end;
+    while (continues_character()) ++end;
+    if (end == at_ || end > at_ + 1) // a name, or a unit such as '°C'
+      while (is_name()) ++end;
+    return text_.substr(at_, end - at_);
   }
 
   const Infix* infix() {

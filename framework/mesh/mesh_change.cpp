@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "framework/invariants.hpp"
+
 namespace sprekk {
 
 namespace {
@@ -21,6 +23,27 @@ Vector covered_parts(const MeshChange& change, const Mesh& after) {
   for (const ReplacedPart& part : change.replaced_parts)
     parts[part.cell] += part.length / after.fracture_cells[part.cell].measure;
   return parts;
+}
+
+Vector shared_in_cells(const MeshChange& change, const Mesh& before, const Vector& amounts) {
+  SPREKK_EXPECT(amounts.size() == before.cell_count(), amounts.size(), before.cell_count());
+  Vector shared = Vector::Zero(static_cast<Eigen::Index>(change.cell.size()));
+  for (std::size_t cell = 0; cell < change.cell.size(); ++cell)
+    if (change.cell[cell] != none) shared[static_cast<Eigen::Index>(cell)] = amounts[change.cell[cell]];
+  for (int k = 0; k < change.overlap.outerSize(); ++k)
+    for (SparseMatrix::InnerIterator entry(change.overlap, k); entry; ++entry)
+      if (change.cell[entry.row()] == none)
+        shared[entry.row()] += entry.value() / before.cell_measure[entry.col()] * amounts[entry.col()];
+  return shared;
+}
+
+Vector shared_in_fracture_cells(const MeshChange& change, const Vector& amounts) {
+  Vector shared = Vector::Zero(static_cast<Eigen::Index>(change.fracture_cell.size()));
+  for (std::size_t cell = 0; cell < change.fracture_cell.size(); ++cell)
+    if (change.fracture_cell[cell] != none)
+      shared[static_cast<Eigen::Index>(cell)] = amounts[change.fracture_cell[cell]];
+  for (const ReplacedPart& part : change.replaced_parts) shared[part.cell] += part.share * amounts[part.old_cell];
+  return shared;
 }
 
 MeshChange no_change(const Mesh& mesh) {

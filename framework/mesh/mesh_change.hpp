@@ -42,6 +42,11 @@ struct MeshChange {
 /// Per new fracture cell: the part of its length that replaced cells covered: 1 for kept cells, 0 where rock parts.
 Vector covered_parts(const MeshChange& change, const Mesh& after);
 
+/// Amounts of old cells, or of old fracture cells, among the new ones: those that are kept have their own, others the
+/// shares of what they cover. Rock that parts has none.
+Vector shared_in_cells(const MeshChange& change, const Mesh& before, const Vector& amounts);
+Vector shared_in_fracture_cells(const MeshChange& change, const Vector& amounts);
+
 /// The change that keeps every cell, face, fracture cell and ridge; its overlap is empty.
 MeshChange no_change(const Mesh& mesh);
 

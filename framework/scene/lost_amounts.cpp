@@ -12,7 +12,6 @@ std::string find_lost_amounts(const std::map<std::string, Balance>& before, cons
                               double tolerance, const std::function<StepAmounts(const std::string&)>& amounts_of) {
   constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of totals since the start
   for (const auto& [name, total] : after) {
-    if (!total.is_closed) continue;
     const auto found = before.find(name);
     const Balance start = found == before.end() ? Balance() : found->second;
     const double stored = total.stored - start.stored, injected = total.injected - start.injected,

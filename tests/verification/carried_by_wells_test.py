@@ -77,6 +77,29 @@ class CarriedByWells(SceneRuns):
                 for name in ("cold[K]", "hot[K]"):
                     self.assertLess(abs(run[name] - 300).max(), 1e-7, shape)
 
+    def test_substeps_of_the_flow(self):
+        schedule = "schedule=[{subcycle: {count: 2, steps: [{solve: pore}]}}, {solve: salt}, {solve: heat}]"
+        for shape in SHAPES[PLANE]:
+            plain, substeps = (self.run_scene(self.write(scene(PLANE, shape)), *settings) for settings in ((), (schedule,)))
+            self.assert_right(substeps)
+            for name in ("most[kg/m^3]", "hot[K]"):
+                self.assertAlmostEqual(substeps[name][-1] / plain[name][-1], 1, delta=1e-3, msg=name)  # of the first step's storage
+
+    def test_what_leaves_is_told(self):
+        # The low well extracts alone, and sides are closed to the tracer: its column times its rate is all that leaves.
+        for text, shapes in SHAPES.items():
+            for shape in shapes:
+                lets_in = text.replace("injected: {low: {concentration: 1 kg/m^3}, side: {concentration: 0.5 kg/m^3}}",
+                                       "injected: {side: {concentration: 0.5 kg/m^3}}")
+                side = lets_in[lets_in.index(", side: {points"):lets_in.index("}\n  salt")]
+                run = self.run_scene(
+                    self.write(scene(lets_in.replace(side, ""), shape, -RATE).replace(", side: {temperature: 290 K}", "")
+                               .replace(", injected: {side: {concentration: 0.5 kg/m^3}}", "")),
+                    'components.salt.initial_concentration="(1 + x/(30*m) + y/(100*m)) kg/m^3"')
+                unit = "kg" if text == SPACE else "kg/m"
+                told = (run["tracer_advection.low.concentration[kg/m^3]"] * RATE * TIME / 10).sum()
+                self.assertAlmostEqual(told / run[f"tracer_outflow[{unit}]"][-1], 1, delta=1e-9, msg=shape)
+
     def test_a_source_that_is_spread_does_not_mix(self):
         # 1e-7 (1 - x/50) for each m^2: what enters at the left has the given values, what leaves at the right is another place's.
         text = scene(PLANE, "quadrilaterals")

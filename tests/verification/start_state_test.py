@@ -176,6 +176,36 @@ class Start(unittest.TestCase):
         settled = ALPHA / MODULUS * (1 - integral)
         self.assertAlmostEqual(self.number(second[-1], "end.y") / settled, 1, delta=2 / CELLS**2)
 
+    def test_loads_that_are_given_in_time(self):
+        """Rock under a pressure or a temperature that are data of time: they count from the start of the first run, in both rocks."""
+        plane = """
+geometry: {box: {x: [0 m, 4 m], y: [0 m, 2 m]}}
+mesh: {size: 1 m}
+components:
+  rock: {type: poromechanics/ROCK, young_modulus: 10 GPa, poisson_ratio: 0.25,
+         boundary: {bottom: {displacement_y: 0 m}, left: {displacement_x: 0 m}, top: {normal_stress: -5 MPa}}}
+  given: GIVEN
+couplers: [COUPLER]
+schedule: [{solve: rock}]
+time: {start: 0 s, end: 300 s, step: 100 s}
+output: {fields: false, probes: {u: {of: rock.displacement, at: [4 m, 1 m]}}}
+"""
+        lame = 4e9  # Pa, both parameters
+        for kind, given, coupler, load in (
+                ("p", "{type: matrix_flow/prescribed, pressure: (1e6 + 1e4*t) Pa}", "{type: biot, between: [given, rock], biot_coefficient: 0.8}", 0.8 * 3e6),
+                ("T", "{type: matrix_heat/prescribed, temperature: (300 + 0.1*t) K}", "{type: thermal_stress, between: [given, rock], expansion: 1e-5 1/K}",
+                 (3 * lame + 2 * lame) * 1e-5 * 30)):
+            for rock in ("mpsa", "fem"):
+                text = plane.replace("ROCK", rock).replace("GIVEN", given).replace("COUPLER", coupler)
+                name = kind + rock
+                whole = self.rows(f"{name}_whole", text.replace("end: 300 s", "end: 600 s"))
+                self.rows(f"{name}_first", text)
+                second = self.rows(f"{name}_second", text.replace("start: 0 s, end: 300 s", "start: 300 s, end: 600 s") + f"start: {{from: {name}_first}}\n")
+                moved = self.number(whole[5], "u.x") - self.number(whole[2], "u.x")
+                self.assertAlmostEqual(moved / (4 * load / (2 * (lame + lame))), 1, delta=1e-9, msg=name)
+                for row, other in zip(whole[3:], second, strict=True):
+                    self.assertAlmostEqual(self.number(other, "u.x") / self.number(row, "u.x"), 1, delta=1e-12, msg=name)
+
     def test_scenes_go_on(self):
         """Slip and apertures, temperatures, and wells whose rates have just changed: two runs are one."""
         scenes = Path(__file__).resolve().parents[2] / "configs/tutorial"

@@ -267,6 +267,10 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
   assembly.derivative(flux_, pressure_, std::move(pressures));
   derive_by_state(assembly, rows.by_aperture);
   if (density_) assemble_density(assembly, rows);
+  // A closed end has no flux. Its column would have no other entry, and its scale would be free.
+  std::vector<char> flows(ridges, false);
+  for (const Link& link : links_) flows[link.ridge] = true;
+  std::erase_if(rows.by_flux, [&](const Triplet& entry) { return !flows[entry.col()]; });
   if (rows.by_flux.empty()) return;
   SparseMatrix fluxes(ridges, ridges);
   fluxes.setFromTriplets(rows.by_flux.begin(), rows.by_flux.end());

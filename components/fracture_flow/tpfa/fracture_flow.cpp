@@ -326,6 +326,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
   for (std::size_t k = 0; k < prescribed_points_.size(); ++k)
     for (const auto& [cell, share] : prescribed_points_[k].shares)
       sums[3 * cell + 1] += step.dt * share * let_in_at_points_->now()[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < let_in_.size(); ++k) sums[3 * prescribed_[k].cell + 1] += step.dt * let_in_[k];
   for (const Link& link : links_)
     if (link.second == none) sums[3 * link.first + 2] += step.dt * flux_.now()[link.ridge];
   cumulative_.set(std::move(sums));
@@ -335,7 +336,6 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
 void FractureFlow::balance(std::map<std::string, Balance>& balances) const {
   Balance& fluid = balances["fluid"];
   fluid.unit = volume_unit;
-  fluid.is_closed = fluid.is_closed && prescribed_.empty();
   add_totals(fluid, mesh_, cumulative_);
 }
 

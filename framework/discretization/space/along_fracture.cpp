@@ -22,21 +22,43 @@ std::vector<int> spread(const Mesh& mesh, std::vector<int> cells, int rings, con
   return cells;
 }
 
-/// The weights of these cells in the value at x of the linear function that fits them best; empty where they do not
-/// determine its slope.
-std::vector<std::pair<int, double>> fitted(const Mesh& mesh, const std::vector<int>& cells, const FractureCell& home,
-                                           const Point& x) {
-  Eigen::MatrixXd basis(cells.size(), dimension);
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    basis.row(static_cast<Eigen::Index>(i)) << 1,
-        ((mesh.fracture_cells[cells[i]].center - x) / home.size()).transpose() * home.tangents;
-  const LeastSquares fit(basis);
-  if (fit.rank() < dimension) return {};
-  const Eigen::MatrixXd inverse = fit.pseudo_inverse();
+/// The weights of cells in the value at a point, and in how many directions they determine the slope.
+struct Fit {
+  Eigen::Index directions = 0;
   std::vector<std::pair<int, double>> weights;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    weights.emplace_back(cells[i], inverse(0, static_cast<Eigen::Index>(i)));
-  return weights;
+};
+
+/// Of the linear function that fits these cells best; it is constant in directions in which they do not differ.
+Fit fitted(const Mesh& mesh, const std::vector<int>& cells, const FractureCell& home, const Point& x) {
+  constexpr double same_place = 1e-6;  // of the extent of the cells: far above round-off
+  const auto count = static_cast<Eigen::Index>(cells.size());
+  Point mean = Point::Zero();
+  for (const int cell : cells) mean += mesh.fracture_cells[cell].center / static_cast<double>(count);
+  const auto from_mean = [&](const Point& at) { return ((at - mean) / home.size()).transpose() * home.tangents; };
+  Fit result;
+  Eigen::VectorXd by_slope = Eigen::VectorXd::Zero(count);
+  if (count > 1) {
+    Eigen::MatrixXd slopes(count, dimension - 1);
+    for (Eigen::Index i = 0; i < count; ++i) slopes.row(i) = from_mean(mesh.fracture_cells[cells[i]].center);
+    const LeastSquares fit(slopes, same_place);
+    result.directions = fit.rank();
+    by_slope = (from_mean(x) * fit.pseudo_inverse()).transpose();
+  }
+  for (Eigen::Index i = 0; i < count; ++i)
+    result.weights.emplace_back(cells[i], 1 / static_cast<double>(count) + by_slope[i]);
+  return result;
+}
+
+/// The same from the cells around a node, with more of them where these do not determine the slope. A row of cells
+/// determines it along the row.
+Fit fitted_around(const Mesh& mesh, const std::vector<int>& around, const FractureCell& home, const Point& x) {
+  constexpr int most_rings = 2;  // a corner cell has one neighbour, and that two more
+  Fit best;
+  for (int rings = 0; rings <= most_rings && best.directions < dimension - 1; ++rings) {
+    Fit fit = fitted(mesh, spread(mesh, around, rings, [](int) { return true; }), home, x);
+    if (rings == 0 || fit.directions > best.directions) best = std::move(fit);
+  }
+  return best;
 }
 
 /// The coordinates of x for the corners of a cell's face: linear along edges, and 1 in all (Wachspress 1975).
@@ -75,10 +97,8 @@ std::vector<std::pair<int, double>> along_fracture(const Mesh& mesh, int cell, c
       return std::ranges::find(others, nodes[n]) != others.end();
     };
     const std::vector<int> around = spread(mesh, {cell}, mesh.fracture_cell_count(), has_node);
-    std::vector<std::pair<int, double>> weights = fitted(mesh, around, home, x);
-    if (weights.empty()) weights = fitted(mesh, spread(mesh, around, 1, [](int) { return true; }), home, x);
-    if (weights.empty()) weights = {{cell, 1.0}};
-    for (const auto& [other, weight] : weights) sums[other] += shares[n] * weight;
+    for (const auto& [other, weight] : fitted_around(mesh, around, home, x).weights)
+      sums[other] += shares[n] * weight;
   }
   return {sums.begin(), sums.end()};
 }

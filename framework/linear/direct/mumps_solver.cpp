@@ -52,7 +52,7 @@ struct MumpsSolver::Instance {
   std::vector<int> border;         ///< the numbers of the unknowns that are not eliminated
   std::vector<double> schur;       ///< their Schur complement, by rows
   std::vector<int> pivots;         ///< the unknowns, from 0 on, of which this process gets the solution
-  int pivots_of = 0;               ///< icntl(9) of the solve that gave `pivots`; 0: none since the factorization
+  bool has_pivots = false;          ///< since the factorization
   std::unique_ptr<parallel::RowExchange> solution_to_rows;  ///< from those to the rows of this process
   std::unique_ptr<parallel::WholeVectors> solution_to_all;  ///< from those to all unknowns
   bool is_ordered = false;                                  ///< for these entries
@@ -302,10 +302,9 @@ LinearReport MumpsSolver::factor_values() {
   (parallel::size() > 1 ? mumps_->data.a_loc : mumps_->data.a) = list_values();
   mumps_->schur.resize(static_cast<std::size_t>(border_.size()) * border_.size());
   mumps_->data.schur = mumps_->schur.data();
-  // The threshold of a zero pivot: the default is round-off of the largest entry; with sums of balances, whose entries
-  // may be smaller, it is zero.
-  constexpr double by_default = 0, zero_alone = -1e-200;  // negative: an absolute threshold
-  mumps_->data.cntl[2] = system_.sums.empty() ? by_default : zero_alone;
+  // A pivot is zero only where nothing is left of it: small ones are a matter of scales, and looked at below.
+  constexpr double zero_alone = -1e-200;  // negative: an absolute threshold
+  mumps_->data.cntl[2] = zero_alone;
   const int spare = mumps_->icntl(14);
   // Pivoting may need more room than the analysis foresaw (-9: the main array, -8, -17, -20: buffers).
   constexpr int most_attempts = 6;  // 32 times the room in the end
@@ -316,7 +315,7 @@ LinearReport MumpsSolver::factor_values() {
     mumps_->icntl(14) *= 2;
   }
   ++counts_.factorizations;
-  mumps_->pivots_of = 0;
+  mumps_->has_pivots = false;
   const int status = mumps_->status();
   if (status < 0) mumps_->icntl(14) = spare;
   if (status < 0)
@@ -333,9 +332,8 @@ LinearReport MumpsSolver::not_singular() {
     return LinearReport::failure("the matrix is singular (a zero pivot in the row of " +
                                  describe_unknown(system_.blocks, row - 1) + ")");
   }
-  const std::string reason = find_singularity(
-      system_, scaled_.matrix, [this](Vector& v) { apply_inverse_to_whole(v, false); },
-      [this](Vector& v) { apply_inverse_to_whole(v, true); });
+  const std::string reason =
+      find_singularity(system_, scaled_.matrix, [this](Vector& v) { make_whole_inverse(v); });
   return reason.empty() ? LinearReport::success() : LinearReport::failure(reason);
 }
 
@@ -344,7 +342,7 @@ LinearReport MumpsSolver::solve(const Vector& b_rows, Vector& x) {
   const Stopwatch watch(counts_.seconds_solve);
   ++counts_.solves;
   return refined_solve(
-      system_, scaled_, b_rows, [this](Vector& v) { make_whole_inverse(v, false); }, x);
+      system_, scaled_, b_rows, [this](Vector& v) { make_whole_inverse(v); }, x);
 }
 
 bool MumpsSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
@@ -397,9 +395,8 @@ Eigen::MatrixXd MumpsSolver::solution_at_pivots(Eigen::MatrixXd& columns) {
   data.sol_loc = solution.data();
   mumps_->run(solve_for_columns);
   for (int& unknown : solved) --unknown;
-  // Pivots are others for the transposed matrix, and stay as long as the factors.
-  const bool may_differ = std::exchange(mumps_->pivots_of, mumps_->icntl(9)) != mumps_->icntl(9);
-  if (may_differ && parallel::any(solved != mumps_->pivots)) {
+  // Pivots stay as long as the factors.
+  if (!std::exchange(mumps_->has_pivots, true) && parallel::any(solved != mumps_->pivots)) {
     mumps_->pivots = std::move(solved);
     mumps_->solution_to_rows.reset();
     mumps_->solution_to_all.reset();
@@ -407,9 +404,8 @@ Eigen::MatrixXd MumpsSolver::solution_at_pivots(Eigen::MatrixXd& columns) {
   return solution;
 }
 
-/// The whole of A^-1 v, or of A^-T v, from this process's rows of v.
-void MumpsSolver::make_whole_inverse(Vector& v, bool transposed) {
-  mumps_->icntl(9) = transposed ? 2 : 1;
+/// The whole of A^-1 v, from this process's rows of v.
+void MumpsSolver::make_whole_inverse(Vector& v) {
   Eigen::MatrixXd column = v;
   if (parallel::size() == 1) {
     back_substitute(column);
@@ -421,12 +417,6 @@ void MumpsSolver::make_whole_inverse(Vector& v, bool transposed) {
     mumps_->solution_to_all =
         std::make_unique<parallel::WholeVectors>(mumps_->pivots, static_cast<int>(scaled_.matrix.cols()));
   v = mumps_->solution_to_all->whole(solution);
-}
-
-/// The same for a vector that every process has all of.
-void MumpsSolver::apply_inverse_to_whole(Vector& v, bool transposed) {
-  v = v(system_.rows).eval();
-  make_whole_inverse(v, transposed);
 }
 
 }  // namespace sprekk

@@ -47,8 +47,7 @@ class MumpsSolver final : public LinearSolver {
   LinearReport not_singular();
   void back_substitute(Eigen::MatrixXd& columns);
   Eigen::MatrixXd solution_at_pivots(Eigen::MatrixXd& columns);
-  void make_whole_inverse(Vector& v, bool transposed);
-  void apply_inverse_to_whole(Vector& v, bool transposed);
+  void make_whole_inverse(Vector& v);
 
   std::unique_ptr<Instance> mumps_;
   LastSystem last_;

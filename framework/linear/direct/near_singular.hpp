@@ -8,17 +8,17 @@
 
 namespace sprekk {
 
-/// Solves in place for the whole right-hand side, with the equilibrated matrix or its transpose.
-using SolveInPlace = std::function<void(Vector&)>;
+/// Makes of this process's rows of a vector b the whole of A^-1 b, with the equilibrated matrix.
+using ApplyInverse = std::function<void(Vector&)>;
 
-/// Looks for a unit vector v of the numerical null space, || A v || < 3e-15 || |A| |v| ||, by inverse iteration on A^T
-/// A from a fixed pseudo-random vector. Returns "" or a sentence that names the unknown in which v is largest: the rock
-/// block that floats, the pressure without a boundary value. A vector v for which a sum of balances
-/// (LinearSystem::sums) is not zero does not count, however small the entries of that row are: their size beside other
-/// entries of the row may be a matter of units. `rows` are this process's rows of the equilibrated matrix. Collective.
-/// The residual of a solve shows singular matrices that this test misses. Costs one solve for a good matrix, seven for
-/// a suspicious one.
-std::string find_singularity(const LinearSystem& system, const SparseMatrix& rows, const SolveInPlace& solve,
-                             const SolveInPlace& solve_transposed);
+/// Looks for a vector v with A v = 0 up to the rounding of the entries of A: a change of these by 3e-15 in the norm of
+/// all rows, and by 1e-13 in each row, makes A v zero, and forces as large as the terms of A v move v by 1e8 times what
+/// they would with a matrix that resists. The last does not depend on the scales of rows and columns: the sum of
+/// balances that alone holds a pressure may be small beside other entries of its row, which is a matter of units.
+/// Returns "" or a sentence that names the unknown in which v is largest: the rock block that floats, the pressure
+/// without a boundary value. `rows` are this process's rows of the equilibrated matrix. Collective. The residual of a
+/// solve shows singular matrices that this test misses. Costs one solve for a good matrix, five or seven for a
+/// suspicious one.
+std::string find_singularity(const LinearSystem& system, const SparseMatrix& rows, const ApplyInverse& apply_inverse);
 
 }  // namespace sprekk

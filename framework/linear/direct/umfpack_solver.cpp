@@ -158,8 +158,7 @@ LinearReport UmfpackSolver::factor_values() {
   // be small for good ones too, so those are looked at more closely.
   constexpr double suspicious = 1e-8;
   if (info[UMFPACK_RCOND] < suspicious) {
-    const std::string reason = find_singularity(
-        system_, a, [this](Vector& v) { apply_inverse(v, false); }, [this](Vector& v) { apply_inverse(v, true); });
+    const std::string reason = find_singularity(system_, a, [this](Vector& v) { apply_inverse(v); });
     if (!reason.empty()) return LinearReport::failure(reason);
   }
   return LinearReport::success();
@@ -171,14 +170,14 @@ LinearReport UmfpackSolver::solve(const Vector& b_rows, Vector& x) {
   const Stopwatch watch(counts_.seconds_solve);
   ++counts_.solves;
   return refined_solve(
-      system_, scaled_, b_rows, [this](Vector& v) { apply_inverse(v, false); }, x);
+      system_, scaled_, b_rows, [this](Vector& v) { apply_inverse(v); }, x);
 }
 
 void UmfpackSolver::solve_unchecked(Eigen::Ref<Vector> b) const {
   SPREKK_EXPECT(numeric_ != nullptr);
   SPREKK_EXPECT(b.size() == scaled_.row_scale.size(), b.size(), scaled_.row_scale.size());
   Vector y = scaled_.row_scale.cwiseProduct(b);
-  apply_inverse(y, false);
+  apply_inverse(y);
   b = scaled_.column_scale.cwiseProduct(y);
 }
 
@@ -193,11 +192,11 @@ bool UmfpackSolver::solve_columns(Eigen::Ref<Eigen::MatrixXd> columns) {
   return true;
 }
 
-void UmfpackSolver::apply_inverse(Vector& v, bool transposed) const {
+void UmfpackSolver::apply_inverse(Vector& v) const {
   SPREKK_ASSERT(numeric_ != nullptr && v.size() == scaled_.matrix.rows(), v.size(), scaled_.matrix.rows());
   const SparseMatrix& a = scaled_.matrix;
   right_hand_side_ = v;
-  umfpack_di_wsolve(transposed ? UMFPACK_A : UMFPACK_At, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), v.data(),
+  umfpack_di_wsolve(UMFPACK_At, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), v.data(),
                     right_hand_side_.data(), numeric_, control_.data(), nullptr, integer_work_.data(), work_.data());
 }
 

@@ -33,7 +33,7 @@ class UmfpackSolver final : public LinearSolver {
   /// The unknowns in an order that is found for entities (EntityGraph); empty where it has to be found for unknowns.
   std::vector<int> order_of_entities() const;
   LinearReport factor_values();
-  void apply_inverse(Vector& v, bool transposed) const;
+  void apply_inverse(Vector& v) const;
   std::string describe_zero_pivot() const;
 
   std::array<double, 20> control_;

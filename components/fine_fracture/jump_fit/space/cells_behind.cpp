@@ -76,8 +76,11 @@ OnEdge nearest_on(const Mesh& mesh, const RimEdge& edge, const Point& x) {
 void see_from(const Mesh& mesh, const std::vector<FrontPiece>& pieces, int number, int k, const Point& x,
               CellBehind& seen) {
   const FrontPiece& piece = pieces[number];
+  constexpr double as_far = 1e-6;  // of the distance: far above round-off
   const OnEdge place = nearest_on(mesh, piece.edges[k], x);
-  if (seen.piece != none && place.distance >= seen.distance) return;
+  if (place.distance > (1 + as_far) * seen.distance || (seen.piece == number && place.distance >= seen.distance)) return;
+  const bool is_as_far = place.distance >= (1 - as_far) * seen.distance;
+  seen.is_between = is_as_far && (seen.is_between || seen.piece != number);
   const Point left = left_of(piece.edges[k]);
   Point ahead = (1 - place.share) * piece.ahead[k] + place.share * piece.ahead[k + 1];
   ahead = (ahead - ahead.dot(left) * left).normalized();
@@ -133,6 +136,8 @@ std::vector<CellBehind> cells_behind(const Mesh& mesh, const std::vector<FrontPi
         if (patch[cell] == patch[pieces[number].edges[k].cell])
           see_from(mesh, pieces, number, k, mesh.fracture_cells[cell].center, seen[cell]);
   }
+  for (CellBehind& cell : seen)
+    if (cell.is_between) cell.piece = none;
   return seen;
 }
 
