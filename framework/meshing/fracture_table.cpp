@@ -124,8 +124,9 @@ class TableReader {
                has_points = has({"name", "x", "y", "z"}) && !find("strike");
     const bool is_sized = has({"length", "height"}) != has({"radius"});
     if ((has_plane && is_sized) || (has_points && !find("dip"))) return;
+    const bool has_both = has({"length", "height", "radius"});
     throw refused(
-        "lacks columns",
+        has_both ? "has columns of rectangles and of discs" : "lacks columns",
         "fractures have x, y, z, strike, dip and either length, height or radius, and points of polygons have "
         "name, x, y, z",
         "give it one of these sets of columns");

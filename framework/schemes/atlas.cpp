@@ -103,7 +103,8 @@ Atlas::Atlas(const AtlasOptions& options)
   if (!options.accelerations.empty()) {
     accelerations = {""};
     for (const std::string& acceleration : options.accelerations)
-      if (acceleration != "none") accelerations.push_back(acceleration);
+      if (acceleration != "none" && std::ranges::count(accelerations, acceleration) == 0)
+        accelerations.push_back(acceleration);
   }
   for (const std::string& over : options.over) axes_.push_back(axis_of(over));
   if (axes_.size() > 2)

@@ -64,7 +64,37 @@ INJECTED = f"injection:rate: {RATE} m^3/s, radius: {BORE} m"
 GIVEN = f"prescribed:pressure: {-SCALE * math.log(BORE)!r} Pa, radius: {BORE} m"
 
 
+# A fracture between two sides without pressure; `more`: another one.
+STRIP = """
+name: strip
+geometry: {{box: {{x: [0 m, 100 m], y: [0 m, 80 m], z: [-60 m, 0 m]}},
+           fractures: {{a: {{points: [[0 m, {low} m, -30 m], [100 m, {low} m, -30 m], [100 m, {high} m, -30 m], [0 m, {high} m, -30 m]]}}{more}}}}}
+mesh: {{kind: structured, shape: {shape}, cells: {cells}}}
+components:
+  c:
+    type: fracture_flow/mfd
+    viscosity: 1 mPa*s
+    fluid_compressibility: 0 1/Pa
+    initial_aperture: {{fractures: {{a: 0.2 mm, default: 0.1 mm}}}}
+    injection: {{i: {{fracture: a, at: [{x} m, {y} m, -30 m], rate: 1e-4 m^3/s}}}}
+    boundary: {{left: {{pressure: 0 Pa}}, right: {{pressure: 0 Pa}}}}
+schedule: [{{solve: c}}]
+time: {{end: 100 s, step: 100 s}}
+"""
+CROSSED = ", b: {points: [[40 m, 20 m, -45 m], [40 m, 60 m, -45 m], [40 m, 60 m, -15 m], [40 m, 20 m, -15 m]]}"
+
+
 class PointsOnFractures(SpaceRuns):
+    def test_a_rate_keeps_its_place_where_cells_are_few(self):
+        """What leaves at x = 0 is the rate times 1 - x/L: in a row of cells, and in corners of triangles beside a crossing."""
+        rows = [dict(shape="hexahedra", cells=[5, 1, 4], low=0, high=80, more="", x=x, y=40) for x in (3.0, 40.0, 41.0, 60.0, 99.0)]
+        corners = [dict(shape=shape, cells=[5, 4, 4], low=20, high=60, more=CROSSED, x=x, y=y)
+                   for shape in ("tetrahedra", "wedges") for x, y in ((40.0, 20.0), (41.0, 48.0), (40.0, 32.4), (1.0, 20.4), (97.0, 58.8))]
+        for strip in rows + corners:
+            left, right = (self.run_text(STRIP.format(**strip))[f"c.{side}.outflow"][-1] for side in ("left", "right"))
+            self.assertAlmostEqual(left + right, 1e-4, delta=1e-13, msg=strip)
+            self.assertAlmostEqual(left, 1e-4 * (1 - strip["x"] / 100), delta=1e-12, msg=strip)
+
     def injected(self, place, size, mirror=1, **how):
         """The error away from the point, and that at its bore hole, over SCALE."""
         results = self.run_text(scene(place, INJECTED, size, mirror), **how)

@@ -353,8 +353,11 @@ std::vector<double> FractureFlow::switch_times() const {
 
 void FractureFlow::report(std::vector<Quantity>& quantities) const {
   int floored = 0;
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
-    if (hydraulic_by_law(i, state_in(i)).by_aperture == 0) ++floored;
+  const bool follows_aperture = !formula_ || formula_->names(of_aperture);
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
+    const Hydraulic hydraulic = hydraulic_by_law(i, state_in(i));
+    if (hydraulic.by_aperture == 0 && (follows_aperture || hydraulic.value <= lowest_)) ++floored;
+  }
   quantities.push_back({name() + ".cells_at_aperture_floor", "1", static_cast<double>(floored)});
   report_rates(quantities);
   if (!empty_) return;

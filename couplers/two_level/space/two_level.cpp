@@ -30,6 +30,11 @@ class TwoLevel : public Coupler, public JumpsOfWalls {
       throw InputError(context.origin, "coupler " + name() + " cannot give the stiffness around fronts",
                        "stress intensity factors are those of an isotropic rock; this one is anisotropic",
                        "give the rock a young_modulus and a poisson_ratio, or remove the fronts");
+    if (const auto* whole = dynamic_cast<const PoroelasticRock*>(&rock_); whole && whole->stiffness_follows_state())
+      throw InputError(context.origin, "coupler " + name() + " cannot give the stiffness around fronts",
+                       "the Young's modulus of the rock follows the state, and stress intensity factors are those of a "
+                       "rock with one modulus",
+                       "give a young_modulus that does not depend on the state, or remove the fronts");
     context.all<FractureContact>();
     context.find<FractureFluid>();
     context.the<FractureFronts>().accept_jumps(*this);
