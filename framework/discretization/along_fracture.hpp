@@ -17,7 +17,7 @@ namespace sprekk {
 ///
 /// In space each node of the cell has the linear function that fits the cells around it best. At x these are weighted
 /// by the coordinates of x in the cell (Wachspress 1975): continuous along the fracture, exact for linear values, and
-/// otherwise off by O(h^2). Where the cells do not determine a slope it is the value of the cell.
+/// otherwise off by O(h^2). A row of cells has a slope along the row; a single cell has its value everywhere.
 std::vector<std::pair<int, double>> along_fracture(const Mesh& mesh, int cell, const Point& x);
 
 }  // namespace sprekk
