@@ -209,11 +209,11 @@ std::string fracture_section(const RunResults& results) {
   std::string text;
   if (has_grown(all)) text += html_panels({paths_panel(all)});
   if (all.size() > most_fractures) {
-    text +=
-        html_paragraph(fmt::format("All {} fractures at the last written time, coloured by each quantity. \"Fields\" "
-                                   "shows them at other times, and "
-                                   "probes and output.lines write values of one fracture.",
-                                   all.size()));
+    text += html_paragraph(fmt::format(
+        "All {} fractures at the last written time, coloured by each quantity in classes of as many cells. \"Fields\" "
+        "shows them at other times, and "
+        "probes and output.lines write values of one fracture.",
+        all.size()));
     return html_section("fractures", "Along the fractures", text + maps_of(all));
   }
   text += html_paragraph(

@@ -225,6 +225,16 @@ class LimitedAdvection(SpaceRuns):
             one = self.run_text(text)
             self.assertLess(self.largest_difference(one, self.run_text(text, processes=2), scenes.figures(one)), 1e-9)
 
+    @on_two_processes
+    def test_by_gmres(self):
+        """Reference: the direct solver, and as many iterations of Newton's method."""
+        text = limited(scenes.flowing(2, **scenes.UNEVEN, decay="1e-4 1/s"))
+        one = self.run_text(text)
+        for processes in (1, 2):
+            other = self.run_text(text, "solver={type: belos, tolerance: 1e-11}", processes=processes)
+            self.assertLess(self.largest_difference(one, other, scenes.figures(one)), 1e-9)
+            self.assertEqual(list(one.history["iterations[1]"]), list(other.history["iterations[1]"]))
+
     def test_heat(self):
         """Reference: Ogata and Banks, with the cells and steps of `upwind`."""
         errors = []
