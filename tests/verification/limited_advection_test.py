@@ -236,17 +236,21 @@ class LimitedAdvection(SpaceRuns):
             self.assertEqual(list(one.history["iterations[1]"]), list(other.history["iterations[1]"]))
 
     def test_heat(self):
-        """Reference: Ogata and Banks, with the cells and steps of `upwind`."""
-        errors = []
-        for scheme in ("upwind", "limited"):
+        """Reference: Ogata and Banks, with the cells and steps of `upwind`; of second order with two stages."""
+        def error(scheme, *settings):
             heat = self.run_scene(ROOT / "configs/verification/ogata_banks.yaml", f"couplers=[{{type: heat_advection, between: [pore, heat], scheme: {scheme}}}]",
-                                  "mesh.cells=[80, 1]", "time.step=4e3 s", "output.fields=true").fields()
+                                  *settings, "output.fields=true").fields()
             u, d, t = 5e-6, 1e-6, 2e5
             exact = np.array([0.5 * (math.erfc((x - u * t) / (2 * math.sqrt(d * t))) + math.exp(u * x / d) * math.erfc((x + u * t) / (2 * math.sqrt(d * t))))
                               for x in heat.centres[:, 0]])
-            errors.append(relative_error(heat["heat.temperature"], exact))
-        print("heat:", errors)
+            return relative_error(heat["heat.temperature"], exact)
+
+        errors = [error(scheme, "mesh.cells=[80, 1]", "time.step=4e3 s") for scheme in ("upwind", "limited")]
+        stages = [error("limited", f"mesh.cells=[{n}, 1]", f"time.step={3.2e5 / n!r} s", SDIRK2) for n in (40, 80)]
+        print("heat:", errors, stages)
         self.assertLess(errors[1], errors[0] / 2)
+        self.assertLess(stages[1], 8e-4)
+        self.assertGreater(math.log2(stages[0] / stages[1]), 1.9)
 
 
 if __name__ == "__main__":
