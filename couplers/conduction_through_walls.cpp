@@ -96,6 +96,8 @@ class Exchange : public Coupler {
     return {{matrix, fracture, because}, {fracture, matrix, because}};
   }
 
+  bool allows_stages() const override { return true; }
+
   void begin_step(const StepTime&) override {
     const Vector in_front = conductance_in_front(mesh_, walls_.wall_value(), walls_.wall_flux());
     find_conduction_along(in_front);

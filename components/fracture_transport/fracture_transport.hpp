@@ -43,6 +43,7 @@ class FractureTransport : public Component, public virtual FractureCarried, publ
   FractureTransport(const ComponentContext& context, const Carried& carried, const Options& options);
 
   void evaluate_data(const StepTime& step) override;
+  bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override {}
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;

@@ -64,6 +64,8 @@ void MatrixFlow::use_borders() {
     for (int f = 0; f < faces; ++f) leaves[f] = border.faces[f] || mesh_.face_cells[f][1] == none;
     border.of_cells = Operator(sums(border.flux), sums(keep_rows(border.flux, leaves)));
     if (face_pressure_) border.continuity = Operator(operators_.faces.continuity_boundary * border.boundary);
+    if (is_limited_ && !is_sealed_)
+      for (const int side : {0, 1}) border.limited[side] = operators_.limited[side].boundary * border.boundary;
   }
 
   if (borders_.empty()) return;

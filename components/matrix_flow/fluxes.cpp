@@ -28,11 +28,12 @@ const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
   const std::uint64_t version = version_of(pressure_), face_version = face_pressure_ ? version_of(*face_pressure_) : 0;
   const bool is_limited = is_limited_ && !is_sealed_;
   const std::uint64_t wall_version = is_limited && wall_flux_ ? version_of(*wall_flux_) : 0;
+  const std::uint64_t side_version = is_limited && side_outflow_ ? version_of(*side_outflow_) : 0;
   const auto density_state = state == State::now ? FluidDensity::State::now : FluidDensity::State::accepted;
   const FluidDensity::Version density = buoyancy_ ? buoyancy_->version(density_state) : FluidDensity::Version{};
   for (Flow& kept : flows_)
     if (kept.used > 0 && kept.pressure == version && kept.face_pressure == face_version &&
-        kept.wall_flux == wall_version && kept.density == density) {
+        kept.wall_flux == wall_version && kept.side_outflow == side_version && kept.density == density) {
       kept.used = ++flow_uses_;
       return kept;
     }
@@ -41,6 +42,7 @@ const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
   flow.pressure = version;
   flow.face_pressure = face_version;
   flow.wall_flux = wall_version;
+  flow.side_outflow = side_version;
   flow.density = density;
   flow.used = ++flow_uses_;
   const Vector potential = values_of(pressure_) - gravity_potential_cell_;
@@ -53,7 +55,9 @@ const MatrixFlow::Flow& MatrixFlow::flow(State state) const {
     excess = buoyancy_->excess(density_state);
     flow.fluxes += buoyancy_->flux().cells * excess + buoyancy_->flux().of_boundaries;
   }
-  if (is_limited) add_limited(flow, potential, wall_flux_ ? values_of(*wall_flux_) : Vector(), excess);
+  if (is_limited)
+    add_limited(flow, potential, wall_flux_ ? values_of(*wall_flux_) : Vector(),
+                side_outflow_ ? values_of(*side_outflow_) : Vector(), excess);
   flow.outflow = cell_sums(mesh_, flow.fluxes, 1);
   flow.leaving = Vector::Zero(mesh_.cell_count());
   for (const auto& [face, cell] : outer_faces_) flow.leaving[cell] += flow.fluxes[face];
@@ -95,6 +99,11 @@ std::vector<MatrixFluxes::Derivative> MatrixFlow::face_flux_derivatives() const 
   if (wall_flux_) {
     limited_by_wall_flux_ = limited_derivative(flow, limited_of_wall_flux_[0], limited_of_wall_flux_[1]);
     derivatives.push_back({wall_flux_, &limited_by_wall_flux_});
+  }
+  if (side_outflow_) {
+    const auto& [first, second] = borders_.front().limited;
+    limited_by_side_outflow_ = limited_derivative(flow, first, second);
+    derivatives.push_back({side_outflow_, &limited_by_side_outflow_});
   }
   return derivatives;
 }

@@ -11,13 +11,6 @@ namespace sprekk::matrix_flow {
 void MatrixFlow::open_leaky_sides(const ComponentContext& context) {
   auto sides = std::make_unique<LeakySides>(mesh_, options_.boundary, inside_);
   if (sides->is_empty()) return;
-  if (is_limited_)
-    for (const auto& [side, condition] : options_.boundary)
-      if (condition.is_leaky())
-        throw InputError(condition.origin, "side '" + side + "' of '" + name() + "' cannot be leaky",
-                         "its limited fluxes keep bounds from the pressures of cells and sides, and the pressure of a "
-                         "leaky side is found with them",
-                         "give the side a pressure, or take matrix_flow/tpfa, mpfa or rt0");
   leaky_sides_ = std::move(sides);
   side_outflow_ = &context.fields.add(mesh_, {.owner = context.name,
                                               .name = "side_outflow",

@@ -24,11 +24,14 @@ void MatrixFlow::use_limited() {
     largest_conductance_ = std::max(largest_conductance_, mean.row(row).cwiseAbs().sum());
 }
 
-void MatrixFlow::add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& excess) const {
+void MatrixFlow::add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& side_outflow,
+                             const Vector& excess) const {
   std::array<Vector, 2> sides;
   for (const int side : {0, 1}) {
     sides[side] = operators_.limited[side].cell * potential + limited_constant_[side];
     if (wall_flux.size() > 0) sides[side] += limited_of_wall_flux_[side] * wall_flux;
+    // Limited flows have no other border than their leaky sides.
+    if (side_outflow.size() > 0) sides[side] += borders_.front().limited[side] * side_outflow;
     if (excess.size() > 0)
       sides[side] += buoyancy_->limited()[side].cells * excess + buoyancy_->limited()[side].of_boundaries;
   }
@@ -79,6 +82,7 @@ void MatrixFlow::assemble_limited(Assembly& assembly, const Flow& flow, double d
   };
   add(pressure_, operators_.limited[0].cell, operators_.limited[1].cell);
   if (wall_flux_) add(*wall_flux_, limited_of_wall_flux_[0], limited_of_wall_flux_[1]);
+  if (side_outflow_) add(*side_outflow_, borders_.front().limited[0], borders_.front().limited[1]);
 }
 
 }  // namespace sprekk::matrix_flow

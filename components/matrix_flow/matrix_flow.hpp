@@ -217,12 +217,13 @@ class MatrixFlow : public Component,
  private:
   /// The flow at one state of the pressure, without the fluxes through walls.
   struct Flow {
-    std::uint64_t pressure = 0, face_pressure = 0, wall_flux = 0;  ///< the versions of the fields that it depends on
-    FluidDensity::Version density = {};                            ///< the same
-    std::uint64_t used = 0;                                        ///< when; 0 for never
-    Vector fluxes;                                                 ///< m^2/s, one a face
-    Vector outflow;  ///< m^2/s, one a cell: the sums of the fluxes out of it
-    Vector leaving;  ///< m^2/s, one a cell: the part of the outflow that leaves the rock
+    /// The versions of the fields that it depends on.
+    std::uint64_t pressure = 0, face_pressure = 0, wall_flux = 0, side_outflow = 0;
+    FluidDensity::Version density = {};  ///< the same
+    std::uint64_t used = 0;              ///< when; 0 for never
+    Vector fluxes;                       ///< m^2/s, one a face
+    Vector outflow;                      ///< m^2/s, one a cell: the sums of the fluxes out of it
+    Vector leaving;                      ///< m^2/s, one a cell: the part of the outflow that leaves the rock
     double largest_outflow = 0;
     Vector by_first, by_second;  ///< derivatives of limited fluxes by those of each side
   };
@@ -284,8 +285,10 @@ class MatrixFlow : public Component,
   void assemble_face_pressure(Assembly& assembly, const StepTime& step) const;
   /// Takes the matrices of limited fluxes from the operators.
   void use_limited();
-  /// `excess`: of the density over the constant one, kg/m^3; empty if the density is constant.
-  void add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& excess) const;
+  /// `wall_flux`, `side_outflow`: m/s, empty without; `excess`: of the density over the constant one, kg/m^3; empty if
+  /// the density is constant.
+  void add_limited(Flow& flow, const Vector& potential, const Vector& wall_flux, const Vector& side_outflow,
+                   const Vector& excess) const;
   void round_limited(double rounding);
   static SparseMatrix limited_derivative(const Flow& flow, const SparseMatrix& first, const SparseMatrix& second);
   void assemble_limited(Assembly& assembly, const Flow& flow, double dt) const;
@@ -403,7 +406,7 @@ class MatrixFlow : public Component,
   };
   mutable WithWalls with_walls_;
   /// Of limited fluxes at the last state for which face_flux_derivatives was called.
-  mutable SparseMatrix limited_by_pressure_, limited_by_wall_flux_;
+  mutable SparseMatrix limited_by_pressure_, limited_by_wall_flux_, limited_by_side_outflow_;
 
   std::unique_ptr<Buoyancy> buoyancy_;                            ///< nullptr for a constant density
   std::uint64_t operators_made_ = 0, operators_of_buoyancy_ = 0;  ///< how often operators and buoyancy were made

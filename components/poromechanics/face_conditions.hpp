@@ -19,9 +19,13 @@ enum class ConditionAxes { of_space, of_face };
 struct FaceConditions {
   std::array<MechanicalCondition, dimension> along{};
   ConditionAxes axes = ConditionAxes::of_space;
+  /// What a displacement of an outer face adds to the force on it, with the opposite sign: N/m per m (N/m in space), in
+  /// the coordinates. Beside tractions; the force on the face is then the prescribed one less spring · displacement.
+  Tensor spring = Tensor::Zero();
 
   MechanicalCondition& operator[](int direction) { return along[direction]; }
   MechanicalCondition operator[](int direction) const { return along[direction]; }
+  bool has_spring() const { return !spring.isZero(0); }
   bool operator==(const FaceConditions&) const = default;
 };
 

@@ -8,16 +8,7 @@
 namespace sprekk::poromechanics {
 
 Rock::Rock(const ComponentContext& context, const Options& options, const StressDiscretization& discretization)
-    : LoadedRock(context, options, Location::cell), stress_discretization_(discretization) {
-  for (const auto& [side, condition] : options.boundary)
-    if (condition.has_spring())
-      throw InputError(condition.origin, "side '" + side + "' of '" + name() + "' cannot rest on springs",
-                       "its displacement is no unknown: this component has those of cells",
-                       "take poromechanics/fem, or hold the side");
-  for (const auto& [point, given] : options.pinned)
-    throw InputError(given.origin, "the point '" + point + "' of '" + name() + "' cannot be pinned",
-                     "this component has displacements of cells, and none of points",
-                     "take poromechanics/fem, or hold sides");
+    : LoadedRock(context, options, Location::cell), stress_discretization_(discretization), pinned_(options_, mesh_) {
   add_wall_traction(context.fields);
   if (!wall_traction_) return;
   wall_remainder_ = &context.fields.add(
@@ -56,13 +47,27 @@ void Rock::settled(const MeshChange& change) {
   apply_boundary();
 }
 
+Vector Rock::settled_displacements() const {
+  const Vector now = outer_displacement();
+  Vector displacements = Vector::Zero(boundary_values_.size());
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const Point along =
+        axes_of(conditions_[f].axes, mesh_.face_normal[f]).transpose() * Point(now.segment<dimension>(dimension * f));
+    for (int k = 0; k < dimension; ++k)
+      if (conditions_[f][k] == MechanicalCondition::displacement)
+        displacements[dimension * f + k] = boundary_values_[dimension * f + k];
+      else if (conditions_[f].has_spring())
+        displacements[dimension * f + k] = along[k];
+  }
+  return displacements;
+}
+
 void Rock::count_from_equilibrium() {
   SPREKK_EXPECT(is_discretized() && loads_applied_, name());
-  Vector forces = face_forces(), displacements = boundary_values_;
+  Vector forces = face_forces();
   exchange(mesh_, Location::face, dimension, forces);
-  for (int f = 0; f < mesh_.face_count(); ++f)
-    for (int k = 0; k < dimension; ++k)
-      if (conditions_[f][k] != MechanicalCondition::displacement) displacements[dimension * f + k] = 0;
+  Vector displacements(boundary_values_.size() + pinned_displacements_.size());
+  displacements << settled_displacements(), pinned_displacements_;
   keep_settled(std::move(forces), std::move(displacements));
   displacement_.set_both(Vector::Zero(displacement_.size()));
 }

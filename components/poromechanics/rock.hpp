@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "components/poromechanics/loaded_rock.hpp"
+#include "components/poromechanics/pinned_cells.hpp"
 #include "components/poromechanics/stress_discretization.hpp"
 #include "framework/assembly/follows_mesh.hpp"
 
@@ -58,6 +59,10 @@ class Rock : public LoadedRock, public FollowsMesh {
   void use_operators();
   void use_loads();
   void count_from_equilibrium() override;
+  /// Takes what a spring bears in the settled state from the prescribed force on a face.
+  void subtract_settled_spring(int face);
+  /// Of faces, in the directions of their conditions: prescribed ones, and those of sides on springs.
+  Vector settled_displacements() const;
   void map_walls();
   void apply_boundary();
   /// Wall tractions with their remainder, Pa, (normal, tangential) of each fracture cell.
@@ -72,6 +77,7 @@ class Rock : public LoadedRock, public FollowsMesh {
   Vector stress_of(const Vector& forces, const Vector& moments) const;
 
   StressDiscretization stress_discretization_;
+  PinnedCells pinned_;
   Field* wall_remainder_ = nullptr;         ///< exists with fractures only
   std::vector<ForceOfLoad> force_of_load_;  ///< of each of `loads_`, once it is discretized
 
@@ -83,11 +89,12 @@ class Rock : public LoadedRock, public FollowsMesh {
   SparseMatrix wall_jump_;          ///< 2 fracture cells × 2 faces: the jump of face displacements, in (n, t)
   Operator force_of_displacement_;  ///< momentum rows
   Operator force_of_wall_traction_;
-  Vector carried_traction_;  ///< Pa, of the state that is being settled on other cells; otherwise empty
-  Vector boundary_values_;   ///< see StressOperators
-  Vector initial_forces_;    ///< of the initial stress on every face, N/m
-  Vector body_forces_;       ///< on every cell, N/m
-  Vector force_constant_;    ///< of the momentum rows: what does not depend on unknowns, N/m
+  Vector carried_traction_;      ///< Pa, of the state that is being settled on other cells; otherwise empty
+  Vector boundary_values_;       ///< see StressOperators
+  Vector pinned_displacements_;  ///< see PinnedCells, m
+  Vector initial_forces_;        ///< of the initial stress on every face, N/m
+  Vector body_forces_;           ///< on every cell, N/m
+  Vector force_constant_;        ///< of the momentum rows: what does not depend on unknowns, N/m
   LinearExpression volume_change_, jump_;
 };
 

@@ -31,6 +31,18 @@ bool Rock::may_have_initial_load(int face) const {
   return !initial_load(face).isZero(0) || excavation.is_excavated(one) != excavation.is_excavated(other);
 }
 
+void Rock::subtract_settled_spring(int face) {
+  const SideCondition& condition = *condition_of(options_, mesh_, face);
+  const Place place{mesh_.face_center[face], mesh_.cell_region[mesh_.face_cells[face][0]], 0};
+  const Tensor axes = axes_of(condition.axes(), mesh_.face_normal[face]);
+  Point moved = settled_->displacements.segment<dimension>(dimension * face);
+  for (int k = 0; k < dimension; ++k)
+    if (condition.displacement_of(k)) moved[k] = 0;
+  boundary_values_.segment<dimension>(dimension * face) -=
+      mesh_.face_measure[face] *
+      (axes.transpose() * condition.spring_at(place, mesh_.face_normal[face]) * axes * moved);
+}
+
 void Rock::evaluate_data(const StepTime& step) {
   if (!evaluate(step)) return;
   boundary_values_ = Vector::Zero(dimension * mesh_.face_count());
@@ -59,7 +71,10 @@ void Rock::evaluate_data(const StepTime& step) {
       if (const Data* displacement = condition->displacement_of(k))
         boundary_values_[dimension * f + k] =
             value_in_step(*displacement, place, step) - (settled_ ? settled_->displacements[dimension * f + k] : 0);
+    if (settled_ && condition->has_spring()) subtract_settled_spring(f);
   }
+  pinned_displacements_ = pinned_.displacements(step);
+  if (settled_) pinned_displacements_ -= settled_->displacements.tail(pinned_displacements_.size());
   body_forces_ = Vector::Zero(dimension * mesh_.cell_count());
   const bool vary = options_.body_force.depends_on_space() || options_.rock_density.depends_on_space() ||
                     options_.gravity.depends_on_space();
@@ -82,6 +97,7 @@ void Rock::apply_boundary() {
   force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), 2);
   force_constant_ -= body_forces_;
   if (wall_remainder_) force_constant_ += force_of_wall_traction_.entries() * wall_remainder_->now();
+  pinned_.give(pinned_displacements_, force_constant_);
   if (parallel::size() > 1)
     for (int c = 0; c < mesh_.cell_count(); ++c)
       if (!is_owned(mesh_, Location::cell, c)) force_constant_.segment<dimension>(dimension * c).setZero();

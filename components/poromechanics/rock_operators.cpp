@@ -61,6 +61,10 @@ void Rock::find_conditions() {
     const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
     conditions_[f].axes = condition->axes();
+    if (condition->has_spring()) {
+      const Place place{mesh_.face_center[f], mesh_.cell_region[mesh_.face_cells[f][0]], 0};
+      conditions_[f].spring = mesh_.face_measure[f] * condition->spring_at(place, mesh_.face_normal[f]);
+    }
     for (int k = 0; k < dimension; ++k)
       if (condition->displacement_of(k)) conditions_[f][k] = MechanicalCondition::displacement;
   }
@@ -128,12 +132,12 @@ void Rock::use_operators() {
   SPREKK_ASSERT(operators_.force_displacement.cols() == displacement_.size(), operators_.force_displacement.cols());
   SPREKK_ASSERT(operators_.volume_displacement.rows() == mesh_.cell_count(), operators_.volume_displacement.rows());
   SPREKK_ASSERT(is_finite(operators_.force_displacement) && is_finite(operators_.force_boundary));
-  force_of_displacement_ = Operator(-outflow);
+  force_of_displacement_ = Operator(pinned_.hold(-outflow));
   volume_change_.terms = {{&displacement_, Operator(operators_.volume_displacement)}};
   if (wall_traction_) {
     map_walls();
-    force_of_wall_traction_ =
-        Operator(-cell_sums(mesh_, SparseMatrix(operators_.force_boundary * wall_forces_), dimension, rank));
+    force_of_wall_traction_ = Operator(
+        pinned_.clear(-cell_sums(mesh_, SparseMatrix(operators_.force_boundary * wall_forces_), dimension, rank)));
     volume_change_.terms.push_back({wall_traction_, Operator(operators_.volume_boundary * wall_forces_)});
     jump_.terms = {{&displacement_, Operator(wall_jump_ * operators_.trace_displacement)},
                    {wall_traction_, Operator(wall_jump_ * operators_.trace_boundary * wall_forces_)}};
@@ -150,7 +154,7 @@ void Rock::use_loads() {
     force_of_load_[i].used_version = load.alpha_version;
     loads_applied_ = false;
     const SparseMatrix force = cell_sums(mesh_, operators_.force_stress, dimension, parallel::rank());
-    force_of_load_[i].on_cell = Operator(-force * load.alpha.asDiagonal());
+    force_of_load_[i].on_cell = Operator(pinned_.clear(-force * load.alpha.asDiagonal()));
     put_term(volume_change_, load.pressure, Operator(operators_.volume_stress * load.alpha.asDiagonal()));
     if (wall_traction_)
       put_term(jump_, load.pressure, Operator(wall_jump_ * operators_.trace_stress * load.alpha.asDiagonal()));

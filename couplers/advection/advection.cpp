@@ -88,7 +88,8 @@ void Advection::count_amounts_from_here(const SettledFields& settled) {
   const auto is_settled = [&](const Field* field) { return settled.contain(*field); };
   flow_->begin(std::ranges::any_of(flow_->fields(), is_settled));
   for (const FluidContents* place : {&rock_, &fractures_})
-    if (place->value) place->received->set_both(Vector::Zero(place->received->size()));
+    if (place->value)
+      for (Field* amount : {place->received, place->held}) amount->set_both(Vector::Zero(amount->size()));
 }
 
 void Advection::balance(std::map<std::string, Balance>& balances) const {

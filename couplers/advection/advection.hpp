@@ -42,6 +42,7 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
             MatrixCarried* in_rock, FractureCarried* in_fractures);
   /// What is carried through the walls in a step is the same for both sides.
   std::vector<Dependence> dependences() const override;
+  bool allows_stages() const override { return true; }
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime&) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;

@@ -4,12 +4,40 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::couplers {
+namespace {
+
+/// Of what a cell holds: fluid that it has gained in steady flow is round-off, a little more with each step. In
+/// derivatives it would ask for another factorization in each step; what is left out there is within the same
+/// round-off.
+constexpr double round_off_of_steps = 1e-11;
+
+/// `of_fluid` with 0 where it may be round-off beside `of_cell`.
+Vector without_round_off(const Vector& of_fluid, const Vector& of_cell) {
+  if (of_cell.size() != of_fluid.size()) return of_fluid;
+  return (of_fluid.array().abs() > round_off_of_steps * of_cell.array()).select(of_fluid, 0.0);
+}
+
+/// What flows out of each cell of a list of streams, and the streams that take it there.
+struct Outflows {
+  Outflows(const std::vector<Stream>& streams, int cells) : rate(Vector::Zero(cells)), by(cells) {
+    for (const Stream& stream : streams) {
+      if (stream.rate >= 0) continue;
+      rate[stream.cell] -= stream.rate;
+      if (stream.flux != Stream::Flux::none) by[stream.cell].push_back(&stream);
+    }
+  }
+  Vector rate;
+  std::vector<std::vector<const Stream*>> by;
+};
+
+}  // namespace
 
 double Advection::value_of(const FluidContents& place, const Stream& stream, const Mixtures& wells) const {
   const double own = place.value->now()[stream.cell];
@@ -53,6 +81,9 @@ void Advection::add(Assembly& assembly, const FluidContents& place, const std::v
   const Vector weights = weights_of(place, streams, step);
   std::vector<Triplet> own, of_rock, of_fractures, changes;
   std::array<std::vector<Triplet>, 4> by_flux;  // by Stream::Flux
+  std::optional<Outflows> outflows;             // on which the weights depend
+  if (weights.size() > 0 && weights.minCoeff() < 1 && assembly.wants_derivatives())
+    outflows.emplace(streams, static_cast<int>(unknown.size()));
   for (const Stream& stream : streams) {
     SPREKK_ASSERT(std::isfinite(stream.rate), stream.cell, stream.rate);
     const bool enters = stream.rate > 0 && stream.from != Stream::From::own;
@@ -60,6 +91,12 @@ void Advection::add(Assembly& assembly, const FluidContents& place, const std::v
         limited ? limited->of(stream, unknown.now(), weights) : LimitedValues::Change{};
     for (const auto& [cell, by] : change.by_cells) changes.emplace_back(stream.cell, cell, -scale * stream.rate * by);
     if (!enters && change.value == 0) continue;
+    if (const int from = stream.rate > 0 ? stream.index : stream.cell;
+        outflows && change.value != 0 && weights[from] < 1)
+      for (const Stream* other : outflows->by[from])
+        by_flux[static_cast<int>(other->flux)].emplace_back(
+            stream.cell, other->flux_index,
+            -scale * stream.rate * change.value * other->by_flux / outflows->rate[from]);
     const double difference =
         (enters ? unknown.now()[stream.cell] - value_of(place, stream, wells) : 0.0) - change.value;
     const double amount = scale * stream.rate * difference;
@@ -90,7 +127,7 @@ void Advection::add(Assembly& assembly, const FluidContents& place, const std::v
       by_flux[static_cast<int>(Stream::Flux::ridge)].emplace_back(stream.cell, ridge,
                                                                   scale * by_flux_there * difference);
   }
-  assembly.add(unknown, capacity.cwiseProduct(unknown.now() - unknown.accepted()));
+  assembly.add(unknown, capacity.cwiseProduct(unknown.now() - unknown.accepted()) + place.not_held_at_start());
   assembly.add(unknown, carried);
   const Vector decaying = place.decay.size() > 0 ? Vector(step.dt * place.decay.cwiseProduct(capacity)) : Vector();
   if (decaying.size() > 0) BalanceRows(assembly, unknown).supply(-decaying.cwiseProduct(unknown.now()));
@@ -105,8 +142,10 @@ void Advection::add(Assembly& assembly, const FluidContents& place, const std::v
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   };
-  assembly.diagonal(unknown, unknown, capacity);
-  if (decaying.size() > 0) assembly.diagonal(unknown, unknown, decaying);
+  Vector slope =
+      without_round_off(capacity, place.location == Location::cell ? in_rock_->capacity() : in_fractures_->capacity());
+  if (place.decay.size() > 0) slope += step.dt * place.decay.cwiseProduct(slope);
+  assembly.diagonal(unknown, unknown, slope);
   std::vector<Triplet>& same = place.location == Location::cell ? of_rock : of_fractures;
   same.insert(same.end(), own.begin(), own.end());
   same.insert(same.end(), changes.begin(), changes.end());

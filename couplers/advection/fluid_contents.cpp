@@ -31,11 +31,18 @@ FluidContents::FluidContents(const CouplerContext& context, const Carried& carri
   received = &context.fields.add(
       *mesh_, amounts_with(field, context.name, "received_in_" + where, volume_unit,
                            "Fluid that has entered each cell, as its " + carried.quantity + " is counted"));
+  held = &context.fields.add(*mesh_,
+                             amounts_with(field, context.name, "held_in_" + where, carried.unit + "*" + volume_unit,
+                                          "Received fluid times the " + carried.value + " of its cell"));
   cumulative = &context.fields.add(
       *mesh_,
       amounts_with(field, context.name, "cumulative_in_" + where, carried.amount_unit,
                    capitalized(carried.quantity) + " of received fluid, and what fluid carried in from outside and out",
                    3));
+}
+
+Vector FluidContents::not_held_at_start() const {
+  return per_volume_ * (received->accepted().cwiseProduct(value->accepted()) - held->accepted());
 }
 
 void FluidContents::check(const Vector& capacity, const std::string& coupler) const {
@@ -76,13 +83,15 @@ void FluidContents::count(const std::vector<Stream>& streams, const std::vector<
   for (int i = 0; i < fluid.size(); ++i)
     if (!is_noise(i)) fluid[i] += dt * net[i];
   exchange(*mesh_, location, 1, fluid);
-  const Vector stored = fluid.cwiseProduct(value->now()) - received->accepted().cwiseProduct(value->accepted());
+  Vector holds = fluid.cwiseProduct(value->now());
+  const Vector stored = holds - held->accepted();
   for (int i = 0; i < fluid.size(); ++i) sums[3 * i] += per_volume_ * stored[i];
   if (decay.size() > 0)
     for (int i = 0; i < fluid.size(); ++i)
       sums[3 * i + 2] += dt * decay[i] * per_volume_ * received->accepted()[i] * value->now()[i];
   exchange(*mesh_, location, 3, sums);
   received->set(std::move(fluid));
+  held->set(std::move(holds));
   cumulative->set(std::move(sums));
 }
 

@@ -32,9 +32,13 @@ class FluidContents {
 
   /// What the fluid that had entered by the start of the step holds, per unit of the value.
   Vector capacity_at_start() const { return per_volume_ * received->accepted(); }
+  /// What that fluid would hold with the value at the start, less what it does hold: 0 but in the second stage of a
+  /// step (TimeScheme::sdirk2), which starts from extrapolated amounts of fluid, of values, and of their products.
+  Vector not_held_at_start() const;
 
   Field* value = nullptr;
   Field* received = nullptr;    ///< m, m^2 (in space m^3): fluid that has entered since the start
+  Field* held = nullptr;        ///< m T: what that fluid holds, over what it holds per volume and value
   Field* cumulative = nullptr;  ///< (stored, injected, outflow or decayed) since the start
   Location location = Location::cell;
   Vector decay;  ///< 1/s, one a cell; empty where nothing decays

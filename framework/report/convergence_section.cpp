@@ -84,14 +84,18 @@ std::string convergence_section(const RunResults& results) {
   std::vector<Panel> panels;
   std::string text;
   if (!iterations.empty()) {
-    panels.push_back(history_panel("iterations of each step", "", {{"", times, iterations, line_style(0)}}));
-    panels.push_back(
-        history_panel("size of each step", "s", {{"", times, results.history.numbers("step[s]"), line_style(0)}}));
+    if (iterations.size() > 1) {
+      panels.push_back(history_panel("iterations of each step", "", {{"", times, iterations, line_style(0)}}));
+      panels.push_back(
+          history_panel("size of each step", "s", {{"", times, results.history.numbers("step[s]"), line_style(0)}}));
+    }
     double sum = 0;
     for (const double value : iterations) sum += value;
-    text += html_paragraph(fmt::format("{} steps with {:.1f} iterations on the average, {:.0f} at most.",
-                                       iterations.size(), sum / static_cast<double>(iterations.size()),
-                                       *std::max_element(iterations.begin(), iterations.end())));
+    text += html_paragraph(iterations.size() == 1
+                               ? fmt::format("1 step with {:.0f} iteration{}.", sum, sum == 1 ? "" : "s")
+                               : fmt::format("{} steps with {:.1f} iterations on the average, {:.0f} at most.",
+                                             iterations.size(), sum / static_cast<double>(iterations.size()),
+                                             *std::max_element(iterations.begin(), iterations.end())));
   }
   std::vector<std::string> schedules;
   std::map<std::string, std::vector<const Sequence*>> by_schedule;
@@ -99,7 +103,14 @@ std::string convergence_section(const RunResults& results) {
     if (by_schedule[sequence.schedule].empty()) schedules.push_back(sequence.schedule);
     by_schedule[sequence.schedule].push_back(&sequence);
   }
-  for (const std::string& schedule : schedules) panels.push_back(residual_panel(schedule, by_schedule[schedule]));
+  for (const std::string& schedule : schedules) {
+    const std::vector<const Sequence*>& its = by_schedule[schedule];
+    // One residual for each step (others are 0, which has no logarithm) is no curve.
+    if (std::ranges::any_of(its, [](const Sequence* one) {
+          return std::ranges::count_if(one->residuals, [](double residual) { return residual > 0; }) > 1;
+        }))
+      panels.push_back(residual_panel(schedule, its));
+  }
   return html_section("convergence", "Convergence", text + html_panels(panels) + worst_equations(results.coupling));
 }
 

@@ -10,6 +10,7 @@
 #include "framework/report/fracture_names.hpp"
 #include "framework/report/fracture_path.hpp"
 #include "framework/report/html.hpp"
+#include "framework/report/network_map.hpp"
 #include "framework/report/quiet_values.hpp"
 #include "framework/report/sections.hpp"
 #include "framework/types.hpp"
@@ -17,7 +18,7 @@
 namespace sprekk {
 namespace {
 
-constexpr std::size_t most_fractures = 12;
+constexpr std::size_t most_fractures = 12;  // with curves of their own; more are maps
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// A fracture at the written times.
@@ -158,6 +159,35 @@ Panel paths_panel(const std::map<int, FractureHistory>& all) {
   return panel;
 }
 
+/// A map for each component of an array at the last time.
+std::string maps_of(const std::map<int, FractureHistory>& all) {
+  const FractureHistory& latest =
+      std::ranges::max_element(all, {}, [](const auto& entry) { return entry.second.times.back(); })->second;
+  const Grid* const last = latest.grids.back();
+  std::vector<FracturePath> paths;
+  for (const auto& [fracture, through] : all)
+    if (through.grids.back() == last)
+      paths.insert(paths.end(), through.paths.back().begin(), through.paths.back().end());
+  std::vector<Panel> panels;
+  QuietValues quiet(sizes_in(all));
+  for (const Grid::Values& sample : last->arrays) {
+    if (sample.name == "fracture" || sample.place != Grid::Place::cell) continue;
+    const std::string unit = column_name(sample.name).unit;
+    for (int c = 0; c < std::min(sample.components, 2); ++c) {
+      std::vector<double> at_all_times, now;
+      for (const auto& [fracture, through] : all) {
+        const std::vector<double> its = values_of(through, sample, c);
+        at_all_times.insert(at_all_times.end(), its.begin(), its.end());
+      }
+      if (quiet.take(title_of(sample, c), unit, at_all_times)) continue;
+      for (int cell = 0; cell < last->cell_count(); ++cell)
+        now.push_back(sample.values[static_cast<std::size_t>(cell * sample.components + c)]);
+      panels.push_back(network_map(paths, now, title_of(sample, c), display_unit(unit, largest_size(now))));
+    }
+  }
+  return html_panels(panels) + quiet.told();
+}
+
 bool has_grown(const std::map<int, FractureHistory>& all) {
   return std::any_of(all.begin(), all.end(), [](const auto& entry) {
     const auto& paths = entry.second.paths;
@@ -178,16 +208,19 @@ std::string fracture_section(const RunResults& results) {
       fracture_names(results.record, static_cast<std::size_t>(all.rbegin()->first) + 1);
   std::string text;
   if (has_grown(all)) text += html_panels({paths_panel(all)});
+  if (all.size() > most_fractures) {
+    text += html_paragraph(fmt::format(
+        "All {} fractures at the last written time, coloured by each quantity in classes of as many cells. \"Fields\" "
+        "shows them at other times, and "
+        "probes and output.lines write values of one fracture.",
+        all.size()));
+    return html_section("fractures", "Along the fractures", text + maps_of(all));
+  }
   text += html_paragraph(
       "Curves are coloured by time, from dark to light. The arc length begins at the end of the fracture where it was "
       "first written; what has grown there since has negative lengths.");
   const SizesOfUnits sizes = sizes_in(all);
-  std::size_t shown = 0;
   for (const auto& [fracture, through] : all) {
-    if (shown++ == most_fractures) {
-      text += html_paragraph(fmt::format("The other {} fractures are left out.", all.size() - most_fractures));
-      break;
-    }
     std::vector<Panel> panels;
     QuietValues quiet(sizes);
     for (const Grid::Values& sample : through.grids.back()->arrays) {

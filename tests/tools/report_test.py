@@ -161,6 +161,23 @@ class Report(unittest.TestCase):
         self.assertEqual(shown[2], "mm")
         self.assertAlmostEqual(float(shown[1]) * 1e-3 / slip, 1, delta=0.1)  # cells beside the one of the probe
 
+    def test_many_fractures_are_maps_and_one_step_draws_no_frames(self):
+        """Reference: the highest and lowest class of a map name the extreme values of the field."""
+        file = self.report("verification/outcrop_network.yaml")
+        page = self.opened(file)
+        self.assertEqual(page.pictures["fractures"], ["pore.wall_flux.plus [10⁻⁶ m/s]", "pore.wall_flux.minus [10⁻⁶ m/s]", "conduit.pressure [MPa]"])
+        self.assertNotIn("convergence", page.pictures)
+        text = file.read_text(encoding="utf-8")
+        self.assertIn("All 63 fractures at the last written time", text)
+        self.assertIn("1 step with 1 iteration.", text)
+        pressures = [float(bound) for bounds in re.findall(r"<g><title>(\S+ to \S+)</title>", text.split("conduit.pressure [MPa]")[-1]) for bound in bounds.split(" to ")]
+        self.assertEqual(pressures[1:-1:2], pressures[2::2])
+        sys.path.insert(0, str(ROOT / "tools/python"))
+        import sprekk
+        field = sprekk.Results(file.parent).fractures()["conduit.pressure"]
+        self.assertAlmostEqual(pressures[0], field.min() * 1e-6, delta=5e-3 * abs(pressures[0]))
+        self.assertAlmostEqual(pressures[-1], field.max() * 1e-6, delta=5e-3)
+
     def test_run_without_fractures_or_probes(self):
         page = self.opened(self.report("verification/terzaghi.yaml", "output.probes=~"))
         self.assertNotIn("fractures", page.sections)

@@ -88,6 +88,15 @@ class BenchmarkInSpace(SceneRuns):
         print(f"tracer in blocks: {(np.abs(found - mean) / spread).max():.2f} standard deviations from the mean of participants", file=sys.stderr)
         self.assertLess((np.abs(found - mean) / spread).max(), 1)
 
+    def test_the_tracer_in_a_network_that_blocks(self):
+        """The same on the cubes of the participants, at 0.2475 s, where concentrations are 0.01 to 1."""
+        blocks, mean, spread = reference("berre_blocking_network_tracer")
+        results = self.run_scene(CONFIGS / "berre_regular_network.yaml", "output.fields=false", "time.end=0.2475 s", *CUBES)
+        found = np.array([results.history[f"in_block_{int(block)}[kg/m^3]"][-1] for block in blocks])
+        print(f"tracer in blocks: {(np.abs(found - mean) / spread).max():.2f} standard deviations from the mean of participants, "
+              f"{np.abs(found - mean).max():.4f} at most", file=sys.stderr)
+        self.assertLess((np.abs(found - mean) / spread)[1:].max(), 1)
+
     def test_other_fractures_are_another_answer(self):
         found, wanted, _ = self.network("berre_blocking_network", *CONDUCTING)
         self.assertGreater(self.distance(found, wanted), 0.3)

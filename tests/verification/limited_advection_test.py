@@ -13,6 +13,7 @@ from scene_runs import ROOT, on_two_processes
 from scenes_in_space import SpaceRuns
 
 POROSITY, END = 0.2, 1e5  # s
+SDIRK2 = "time.scheme=sdirk2"
 WAY = 0.4  # m, in x and y, by the end
 
 
@@ -72,6 +73,50 @@ class LimitedAdvection(SpaceRuns):
             self.assertLess(errors["limited", 80, 80], errors["upwind", 80, 80] / 3)
             self.assertLess(errors["limited", 160, 160], 2.5e-3)
             self.assertGreater(math.log2(errors["limited", 40, 100] / errors["limited", 80, 400]), 1.8)
+
+    def test_second_order_in_time(self):
+        """Reference: of_column, and the cloud at its place; cells and steps refined together. With backward Euler orders are below 1."""
+        errors = []
+        for n in (40, 80):
+            x, values = self.salt(limited(scenes.column(n, n, "tpfa")), SDIRK2)
+            errors.append(relative_error(values, np.array([scenes.of_column(each, scenes.END) for each in x[:, 0]])))
+        self.assertLess(errors[1], 2.6e-4)
+        self.assertGreater(math.log2(errors[0] / errors[1]), 1.8)
+        clouds = []
+        for cells, steps in ((16, 20), (32, 40)):
+            x, values = self.salt(moving(CLOUD, steps, squares(cells), given=COMING), SDIRK2)
+            clouds.append(relative_error(values, np.exp(-WIDTH * ((x[:, :2] - 0.3 - WAY) ** 2).sum(axis=1))))
+        print("sdirk2:", errors, clouds)
+        self.assertLess(clouds[1], 0.019)
+        self.assertGreater(math.log2(clouds[0] / clouds[1]), 1.8)
+
+    def test_two_stages_keep_uniform_values_balances_and_bits(self):
+        """Reference: 2 kg/m^3; the balance with decay; the same run restarted, disturbed, mirrored, and with the tracer in substeps of one stage each."""
+        for schedule in (scenes.BOTH, "[{solve: [pore, conduit, salt, water]}]", "[{solve: [salt, water]}, {solve: [pore, conduit]}]"):
+            for values in scenes.concentrations(self.run_text(limited(scenes.flowing(2, schedule=schedule)), SDIRK2)):
+                self.assertLess(np.abs(values - 2).max(), 2e-11)
+            results = self.run_text(limited(scenes.flowing(2, **scenes.UNEVEN, schedule=schedule, decay="1e-4 1/s", spread=scenes.SPREAD)), SDIRK2)
+            self.assertLess(np.abs(results["tracer_balance_error"]).max(), 1e-12 * 3 * 1e-6 * 3 * 3600)
+        uneven = {**scenes.UNEVEN, "decay": "1e-4 1/s"}
+        text = limited(scenes.flowing(2, **uneven))
+        whole, half, path = self.run_text(text, SDIRK2), self.run_text(text, SDIRK2, "time.end=1 h"), self.write(text, "stages.yaml")
+        self.assert_same_bits(self.run_scene(self.write(text), SDIRK2, restart=half.folder), whole)
+        other = self.run_text(limited(scenes.flowing(2, **uneven, rate=1e-6 * (1 + 1e-9))), SDIRK2)
+        self.assertLess(self.largest_difference(whole, other, scenes.figures(whole)), 1e-8)
+        columns = [f"tracer_{what}[kg/m]" for what in ("stored", "injected", "outflow")]
+        self.assertLess(self.largest_difference(whole, self.run_scene(self.turned(path, 90, mirror=True), SDIRK2), columns), 1e-7)
+
+    @on_two_processes
+    def test_two_stages_on_two_processes(self):
+        text = limited(scenes.flowing(2, **scenes.UNEVEN, decay="1e-4 1/s", spread=scenes.SPREAD))
+        one = self.run_text(text, SDIRK2)
+        self.assertLess(self.largest_difference(one, self.run_text(text, SDIRK2, processes=2), scenes.figures(one)), 1e-9)
+
+    def test_steady_flow_has_one_factorization(self):
+        """Of the flow and of the tracer: the matrix of upwind values does not change, with decay and sorption as well."""
+        for text, solves in ((scenes.column(80, 80, "tpfa"), 81), (moving(CLOUD, 40, squares(32), scheme="upwind", given=COMING), 41)):
+            counters = self.run_text(text).record["counters"]
+            self.assertEqual((counters["linear: factorizations"], counters["linear: solves"]), (2, solves))
 
     def test_a_fracture_that_loses_tracer_to_the_rock(self):
         """Reference: of_fracture."""
@@ -180,18 +225,32 @@ class LimitedAdvection(SpaceRuns):
             one = self.run_text(text)
             self.assertLess(self.largest_difference(one, self.run_text(text, processes=2), scenes.figures(one)), 1e-9)
 
+    @on_two_processes
+    def test_by_gmres(self):
+        """Reference: the direct solver, and as many iterations of Newton's method."""
+        text = limited(scenes.flowing(2, **scenes.UNEVEN, decay="1e-4 1/s"))
+        one = self.run_text(text)
+        for processes in (1, 2):
+            other = self.run_text(text, "solver={type: belos, tolerance: 1e-11}", processes=processes)
+            self.assertLess(self.largest_difference(one, other, scenes.figures(one)), 1e-9)
+            self.assertEqual(list(one.history["iterations[1]"]), list(other.history["iterations[1]"]))
+
     def test_heat(self):
-        """Reference: Ogata and Banks, with the cells and steps of `upwind`."""
-        errors = []
-        for scheme in ("upwind", "limited"):
+        """Reference: Ogata and Banks, with the cells and steps of `upwind`; of second order with two stages."""
+        def error(scheme, *settings):
             heat = self.run_scene(ROOT / "configs/verification/ogata_banks.yaml", f"couplers=[{{type: heat_advection, between: [pore, heat], scheme: {scheme}}}]",
-                                  "mesh.cells=[80, 1]", "time.step=4e3 s", "output.fields=true").fields()
+                                  *settings, "output.fields=true").fields()
             u, d, t = 5e-6, 1e-6, 2e5
             exact = np.array([0.5 * (math.erfc((x - u * t) / (2 * math.sqrt(d * t))) + math.exp(u * x / d) * math.erfc((x + u * t) / (2 * math.sqrt(d * t))))
                               for x in heat.centres[:, 0]])
-            errors.append(relative_error(heat["heat.temperature"], exact))
-        print("heat:", errors)
+            return relative_error(heat["heat.temperature"], exact)
+
+        errors = [error(scheme, "mesh.cells=[80, 1]", "time.step=4e3 s") for scheme in ("upwind", "limited")]
+        stages = [error("limited", f"mesh.cells=[{n}, 1]", f"time.step={3.2e5 / n!r} s", SDIRK2) for n in (40, 80)]
+        print("heat:", errors, stages)
         self.assertLess(errors[1], errors[0] / 2)
+        self.assertLess(stages[1], 8e-4)
+        self.assertGreater(math.log2(stages[0] / stages[1]), 1.9)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,9 @@ struct MpsaLimits {
   /// How well the conditions on the two faces of a single subcell determine a component of its gradient, as the sine of
   /// an angle: below `vague` they are not used for it, above `certain` nothing else is.
   double vague = 0.1, certain = 0.5;
+  /// A spring on a face of a single subcell (FaceConditions::spring) of more than so many shear moduli holds the face
+  /// as a prescribed displacement does: the rock moves it by 3 % of what it would move a free face.
+  double holds = 30;
   /// Where the smallest pivot, relative to its row, is below `turns_freely`, a stiff subcell turns freely among very
   /// soft ones (media that differ by 1e6), which hardly resist. It is then coupled to their rotation with
   /// `held_by_soft` times the strength between equal subcells.

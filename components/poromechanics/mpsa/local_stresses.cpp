@@ -198,6 +198,8 @@ void LocalStresses::assemble(const InteractionRegion& region, const std::vector<
   for (int f = 0; f < subfaces_; ++f) {
     if (load_column_[f] == none) continue;
     const FaceConditions& given = conditions[region.faces[f]];
+    for (int c = 0; c < 2; ++c)
+      for (int e = 0; e < 2; ++e) system_[(2 * f + c) * width_ + 2 * f + e] += region.shares[f] * given.spring(c, e);
     if (given.axes != ConditionAxes::of_space) turn_balance(f);
     for (int c = 0; c < 2; ++c) {
       double* row = system_.data() + row_of(f, c) * width_;
@@ -308,7 +310,7 @@ void LocalStresses::find_forces(const InteractionRegion& region, const std::vect
 void LocalStresses::prescribe_forces(const InteractionRegion& region, const std::vector<FaceConditions>& conditions) {
   for (int f = 0; f < subfaces_; ++f) {
     const FaceConditions& given = conditions[region.faces[f]];
-    if (given.axes == ConditionAxes::of_space) continue;
+    if (given.axes == ConditionAxes::of_space || given.has_spring()) continue;
     double *x = forces_.data() + 2 * f * columns_, *y = x + columns_;
     for (int j = 0; j < columns_; ++j) {
       Point along = axes_[f].transpose() * Point(x[j], y[j]);

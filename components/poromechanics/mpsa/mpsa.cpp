@@ -155,7 +155,8 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
       for (int c = 0; c < 2; ++c) {
         // Prescribed values hold to the last digit, without the round-off of the local problem; along other axes the
         // local problem has them already.
-        if (conditions[face][c] == MechanicalCondition::traction && conditions[face].axes == ConditionAxes::of_space)
+        if (conditions[face][c] == MechanicalCondition::traction && conditions[face].axes == ConditionAxes::of_space &&
+            !conditions[face].has_spring())
           force.add_boundary(face, c, valued_index, 0.5);
         else
           force.add(face, c, local.force(f, c), local, 1);

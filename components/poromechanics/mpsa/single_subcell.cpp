@@ -107,7 +107,10 @@ void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& regi
   std::vector<int> held, forces;
   for (int i = 0; i < 4; ++i) {
     const int c = row_of(i / 2, 0) == i ? 0 : 1;
-    (conditions[region.faces[i / 2]][c] == MechanicalCondition::displacement ? held : forces).push_back(i);
+    const FaceConditions& given = conditions[region.faces[i / 2]];
+    const double spring = axes_[i / 2].col(c).dot(given.spring * axes_[i / 2].col(c));
+    const bool is_stiff = spring > limits_.holds * shear_modulus(rock);
+    (given[c] == MechanicalCondition::displacement || is_stiff ? held : forces).push_back(i);
   }
   const int targets = 2 * (cells_ - 1);
   Continuation across{decltype(Continuation::of_q)(targets, 4), Eigen::MatrixXd::Zero(targets, columns_)};
