@@ -126,8 +126,9 @@ void History::remember(const StateAt& state_at) {
   OfAll state{};
   const std::span<double> followed(state.data(), followed_->size());
   for (std::size_t k = 0; k < fields_.size(); ++k) {
-    Vector values = before_[k];
+    Vector values(before_[k].size());
     for (int i = 0; i < values.size(); ++i) {
+      values[i] = 0;
       if (!counts(i)) continue;
       state_at(i, followed);
       values[i] = value(k, i, followed, {}, Memory::kept);
