@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "framework/assembly/follows_mesh.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/property.hpp"
+#include "framework/assembly/state_fields.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
@@ -24,6 +26,13 @@ namespace sprekk::couplers {
 namespace {
 
 constexpr const char* size_unit = dimension == 2 ? "m" : "m^2";
+
+/// What a formula of the coefficient may name.
+const StateVariables& leak_off_variables() {
+  static const StateVariables variables = {{"p", "Pa", "pressure of the fluid in the fracture"},
+                                           {"a", "m", "aperture"}};
+  return variables;
+}
 
 struct CarterOptions {
   Data coefficient;                     ///< C_L, m/s^0.5
@@ -43,6 +52,7 @@ struct CarterOptions {
                .source = "Howard and Fast 1957 (appendix by Carter)",
                .required = true,
                .material = true});
+    may_be_formula(spec.name(), "leak_off_coefficient", leak_off_variables());
     spec.data("spurt_loss", spurt,
               {.unit = "m",
                .range = non_negative(),
@@ -60,8 +70,8 @@ struct CarterOptions {
 
 /// Takes from the balance of each fracture cell what has left through both of its walls in the step, exactly for the
 /// mean time of exposure of the cell. The part of a cell that becomes wet in the step (a tip has passed, or fluid has
-/// filled it) does so at a constant rate over the step. The leak-off does not depend on the pressure, so it has no
-/// derivatives.
+/// filled it) does so at a constant rate over the step. A coefficient that is a formula is that of the state at the end
+/// of the step, for all walls that are exposed then.
 class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, public KeepsTotals {
  public:
   CarterLeakOff(const CouplerContext& context, const CarterOptions& options)
@@ -72,7 +82,7 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
         rock_left_out_(context.left_out<MatrixFluid>()),
         is_age_given_(options.exposed_since.has_value()),
         age_at_start_(context.start_time - options.exposed_since.value_or(context.start_time)),
-        coefficient_(options.coefficient, fracture_cell_places(mesh_), context.start_time),
+        coefficient_(options.coefficient, leak_off_variables(), fracture_cell_places(mesh_)),
         spurt_(options.spurt, fracture_cell_places(mesh_), context.start_time),
         wet_(add(context, "wet", size_unit, "Size of the part that fluid has come to")),
         wet_age_(add(context, "wet_age", std::string(size_unit) + "*s",
@@ -112,14 +122,20 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
       throw InputError(origin_, "fluid leaves '" + fluid_.pressure().spec().owner + "' twice",
                        "a coupler wall_exchange lets it into the flow in the rock",
                        "remove one of the two couplers, " + name() + " or wall_exchange");
+    if (!coefficient_.is_formula()) return;
+    for (int i = 0; i < mesh_.fracture_cell_count(); ++i)  // a value out of its range is refused at the start
+      if (fluid_.is_in_fracture_cell(i)) coefficient_at(i);
   }
 
   void begin_step(const StepTime&) override { wet_at_end_ = wet_sizes().cwiseMax(wet_.accepted()); }
 
   void assemble(Assembly& assembly, const StepTime& step) const override {
     if (!assembly.has_row(fluid_.pressure())) return;
-    const Vector leaking = leaking_in(step);
-    BalanceRows(assembly, fluid_.pressure()).exchange(leaking, leaking);
+    const Leaking leaking = leaking_in(step);
+    BalanceRows(assembly, fluid_.pressure()).exchange(leaking.amount, leaking.amount);
+    if (!assembly.wants_derivatives() || !coefficient_.is_formula()) return;
+    assembly.diagonal(fluid_.pressure(), fluid_.pressure(), leaking.by_pressure);
+    assembly.diagonal(fluid_.pressure(), fluid_.aperture(), leaking.by_aperture);
   }
 
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override {
@@ -127,7 +143,7 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
     const Vector fresh = wet_at_end_ - wet_.accepted();
     wet_.set(wet_at_end_);
     wet_age_.set(wet_age_.accepted() + step.dt * wet_.accepted() + step.dt / 2 * fresh);
-    leaked_.set(leaked_.accepted() + leaking_in(step));
+    leaked_.set(leaked_.accepted() + leaking_in(step).amount);
   }
 
   void balance(std::map<std::string, Balance>& balances) const override {
@@ -181,15 +197,35 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
     return sizes;
   }
 
-  /// What leaves each cell in the step, through both walls.
-  Vector leaking_in(const StepTime& step) const {
-    Vector leaking(mesh_.fracture_cell_count());
-    for (int i = 0; i < leaking.size(); ++i) {
+  /// m/s^0.5, with its derivatives by the variables that a formula may name.
+  struct Coefficient {
+    double value;
+    std::array<double, 2> by{};
+  };
+  Coefficient coefficient_at(int cell) const {
+    Coefficient result{};
+    const std::array state{fluid_.pressure().now()[cell], fluid_.aperture().now()[cell]};
+    result.value = coefficient_.at(cell, state, result.by);
+    return result;
+  }
+
+  /// What leaves each cell in the step, through both walls, and its derivatives.
+  struct Leaking {
+    Vector amount, by_pressure, by_aperture;
+  };
+  Leaking leaking_in(const StepTime& step) const {
+    const Vector none = Vector::Zero(mesh_.fracture_cell_count());
+    Leaking leaking{none, none, none};
+    for (int i = 0; i < none.size(); ++i) {
+      if (!fluid_.is_in_fracture_cell(i)) continue;
       const double wet = wet_.accepted()[i], fresh = wet_at_end_[i] - wet;
       const double age = wet > 0 ? wet_age_.accepted()[i] / wet : 0;
       // The mean of sqrt(t - t_0) over arrivals in the step is 2/3 sqrt(dt).
       const double roots = wet * (std::sqrt(age + step.dt) - std::sqrt(age)) + fresh * (2.0 / 3) * std::sqrt(step.dt);
-      leaking[i] = 2 * (2 * coefficient_[i] * roots + spurt_[i] * fresh);
+      const auto [coefficient, by] = coefficient_at(i);
+      leaking.amount[i] = 2 * (2 * coefficient * roots + spurt_[i] * fresh);
+      leaking.by_pressure[i] = 4 * roots * by[0];
+      leaking.by_aperture[i] = 4 * roots * by[1];
     }
     return leaking;
   }
@@ -201,7 +237,8 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
   bool is_age_given_;          ///< by `exposed_since`
   bool continues_ = false;     ///< whether walls are those of another run
   double age_at_start_;        ///< s, of what has fluid at the start
-  Property coefficient_, spurt_;
+  StateFormula coefficient_;   ///< C_L, m/s^0.5
+  Property spurt_;
   Field &wet_, &wet_age_, &leaked_;
   Vector wet_at_end_;  ///< of the step
 };

@@ -6,19 +6,21 @@
 
 namespace sprekk {
 
-std::unique_ptr<FormulaOfCells> FormulaOfCells::find(const Data& data, const Mesh& mesh) {
-  std::unique_ptr<FormulaOfCells> found(new FormulaOfCells(data, mesh));
+std::unique_ptr<FormulaOfCells> FormulaOfCells::find(const Data& data, const Mesh& mesh, const History* history) {
+  std::unique_ptr<FormulaOfCells> found(new FormulaOfCells(data, mesh, history));
   return found->formula_.is_formula() ? std::move(found) : nullptr;
 }
 
-FormulaOfCells::FormulaOfCells(const Data& data, const Mesh& mesh)
-    : mesh_(mesh), formula_(data, rock_variables(), cell_places(mesh)), state_(mesh) {
+FormulaOfCells::FormulaOfCells(const Data& data, const Mesh& mesh, const History* history)
+    : mesh_(mesh), formula_(data, rock_variables(), cell_places(mesh), history), state_(mesh) {
   state_.let_name(formula_);
 }
 
 bool FormulaOfCells::evaluate(const StepTime& step, const std::vector<char>& inside) {
   const bool has_changed = state_.take(step), is_other_time = formula_.set_time(step);
-  if (!has_changed && !is_other_time && values_.size() > 0) return false;
+  const std::uint64_t version = formula_.version_of_history();
+  const bool is_other_history = version != version_of_history_;
+  if (!has_changed && !is_other_time && !is_other_history && values_.size() > 0) return false;
   Vector values = Vector::Zero(mesh_.cell_count());
   std::vector<Vector> by(state_.variable_count(), values);
   std::vector<double> state(rock_variables().size(), 0), of_state(state.size());
@@ -33,6 +35,7 @@ bool FormulaOfCells::evaluate(const StepTime& step, const std::vector<char>& ins
     state_.forget();  // so that the next call does not take it for evaluated
     throw;
   }
+  version_of_history_ = version;
   values_ = std::move(values);
   by_ = std::move(by);
   return true;

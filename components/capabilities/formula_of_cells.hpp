@@ -1,6 +1,7 @@
 // A property of rock that is a formula of the state.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,9 +12,10 @@ namespace sprekk {
 /// A number for each cell by a formula of the state there, and its derivatives by the variables that it names.
 class FormulaOfCells {
  public:
-  /// nullptr where the datum is no formula.
-  static std::unique_ptr<FormulaOfCells> find(const Data& data, const Mesh& mesh);
+  /// nullptr where the datum is no formula. `history`: what it may name beside the state, nullptr for nothing.
+  static std::unique_ptr<FormulaOfCells> find(const Data& data, const Mesh& mesh, const History* history = nullptr);
 
+  const StateFormula& formula() const { return formula_; }
   StateOfCells& state() { return state_; }
   const StateOfCells& state() const { return state_; }
 
@@ -25,11 +27,12 @@ class FormulaOfCells {
   const Vector& by(std::size_t k) const { return by_[k]; }
 
  private:
-  FormulaOfCells(const Data& data, const Mesh& mesh);
+  FormulaOfCells(const Data& data, const Mesh& mesh, const History* history);
 
   const Mesh& mesh_;
   StateFormula formula_;
   StateOfCells state_;
+  std::uint64_t version_of_history_ = 0;
   Vector values_;
   std::vector<Vector> by_;
 };

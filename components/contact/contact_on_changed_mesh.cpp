@@ -18,6 +18,7 @@ void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
   // friction of rate and state, slip takes time, so cells keep their slip.
   const bool holds_all = rate_and_state_ || (covered.size() > 0 && covered.minCoeff() > 0);
   if (rate_and_state_) rate_and_state_->carry_over(*before.rate_and_state_);
+  if (history_) history_->hold(true);
   bonded_.resize(change.fracture_cell.size());
   for (std::size_t i = 0; i < bonded_.size(); ++i) bonded_[i] = holds_all || change.fracture_cell[i] == none;
   Vector jump = jump_on_changed_mesh(change, {mesh_, jump_.accepted()}, {before.mesh_, before.jump_.accepted()});
@@ -28,6 +29,7 @@ void FrictionalContact::carry_over(const Part& part, const MeshChange& change) {
 
 void FrictionalContact::settled(const MeshChange& change) {
   if (change.is_at_rest) traction_.set_both(std::exchange(carried_traction_, {}));
+  if (history_) history_->hold(false);
   bonded_.clear();
   bonded_jump_.resize(0);
 }

@@ -39,9 +39,10 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
   const std::vector<Place> places = places_of_parameters(mesh_, here_);
+  history_ = History::find(options_->history, strength_variables(), places, here_);
   formulas_ = std::make_unique<Formulas>(
       LawData{options_->friction, options_->cohesion, options_->dilation, options_->closure.formula},
-      options_->friction_law.build(), places);
+      options_->friction_law.build(), places, history_.get());
   if (formulas_->friction() && formulas_->friction_law())
     throw InputError(context.origin, "the friction of '" + context.name + "' is a formula, and changes by itself",
                      "'friction_law' says how a constant one changes", "remove one of the two");
@@ -58,6 +59,7 @@ FrictionalContact::FrictionalContact(const ComponentContext& context, const Opti
   dilation_ = dilation_angle_.values().unaryExpr([](double psi) { return std::tan(psi); });
   formulas_->set_time({context.start_time, 0, context.start_time});
   evaluate_formulas();
+  if (history_) history_->add_fields(context.fields, mesh_, Location::fracture_cell, context.name, traction_.name());
   stiffness_of_walls_ = stiffness_of_fractures_ = stiffness_of_springs_ = Vector::Ones(dimension * count);
   fracture_size_.assign(mesh_.fractures.size(), 0);
   for (const FractureCell& cell : mesh_.fracture_cells) fracture_size_[cell.fracture] += cell.measure;
@@ -73,6 +75,7 @@ double FrictionalContact::opening_under(int cell, double normal_traction) const 
 }
 
 void FrictionalContact::evaluate_data(const StepTime& step) {
+  if (history_) history_->show({step.start, step.dt, step.end}, state_remembered(false));
   formulas_->set_time(step);
   evaluate_formulas();
   friction_.evaluate(step);
@@ -85,6 +88,7 @@ void FrictionalContact::evaluate_data(const StepTime& step) {
 
 void FrictionalContact::begin_step(const StepTime& step) {
   dt_ = step.dt;
+  if (history_) history_->begin_step({step.start, step.dt, step.end}, state_remembered(false));
   if (rate_and_state_) rate_and_state_->begin_step(step, slipping_walls());
   back_slip_.clear();
   kept_.clear();
@@ -131,12 +135,14 @@ void FrictionalContact::after_solve(const std::vector<Field*>& solved, const Ste
         rates.segment<tangents>(tangents * i).setZero();
     rate_and_state_->set_slip_rates(std::move(rates));
   }
-  if (!path_) return;
-  Vector paths = Vector::Zero(mesh_.fracture_cell_count());
-  for (int i = 0; i < paths.size(); ++i)
-    if (is_on_fracture_cell(i))
-      paths[i] = path(i, gap(i, traction_.now(), jump_.now()), magnitude<dimension - 1>(moved(i)));
-  path_->set(std::move(paths));
+  if (path_) {
+    Vector paths = Vector::Zero(mesh_.fracture_cell_count());
+    for (int i = 0; i < paths.size(); ++i)
+      if (is_on_fracture_cell(i))
+        paths[i] = path(i, gap(i, traction_.now(), jump_.now()), magnitude<dimension - 1>(moved(i)));
+    path_->set(std::move(paths));
+  }
+  if (history_) history_->remember(state_remembered(true));
 }
 
 void FrictionalContact::assemble(Assembly& assembly, const StepTime&) const {

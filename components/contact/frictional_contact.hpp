@@ -189,6 +189,8 @@ class FrictionalContact : public Component,
   double closure_by_traction(int cell, double normal_traction) const;  ///< its derivative, m/Pa
   /// Friction and dilation of formulas where nothing has slid.
   void evaluate_formulas();
+  /// The state of the walls that is remembered: with the slip of this step, or without where it begins.
+  History::StateAt state_remembered(bool has_moved) const;
   /// The coefficient of friction by this law. Throws DataError where it is negative or not finite.
   OfWalls friction_by_law(int cell, const FrictionLaw& law, const WallState& state) const;
   /// The strength of the walls in this state, with derivatives, by their own laws.
@@ -244,6 +246,7 @@ class FrictionalContact : public Component,
   double stiffness_factor_;                            ///< of the springs over c
   std::unique_ptr<Closure> closure_;                   ///< null for hard walls
   std::unique_ptr<RateAndStateWalls> rate_and_state_;  ///< null where friction does not depend on the rate
+  std::unique_ptr<History> history_;                   ///< nullptr where nothing is remembered
   std::unique_ptr<Formulas> formulas_;
   Property friction_, dilation_angle_;       ///< mu_s, psi; of formulas, values without slip
   const Field* friction_factor_ = nullptr;   ///< where another component gives one

@@ -11,6 +11,7 @@
 #include "components/contact/laws/rate_and_state_options.hpp"
 #include "components/contact/laws/strength.hpp"
 #include "components/contact/multiplier.hpp"
+#include "framework/assembly/history/history_options.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/component.hpp"
 
@@ -18,6 +19,7 @@ namespace sprekk::contact {
 
 /// Parameters of the contact law.
 struct Options {
+  HistoryOptions history;
   Data friction;  ///< mu_s
   FrictionOptions friction_law;
   Data dilation_angle;                   ///< psi, rad

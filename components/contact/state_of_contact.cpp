@@ -43,6 +43,7 @@ void FrictionalContact::output(std::vector<OutputField>& fields) const {
   fields.push_back({name() + ".slip_tendency", "1", Location::fracture_cell, 1, std::move(tendency)});
   fields.push_back({name() + ".friction_used", "1", Location::fracture_cell, 1, std::move(used)});
   if (rate_and_state_) rate_and_state_->output(fields);
+  if (history_) history_->output(fields);
 }
 
 void FrictionalContact::note_step(Notes& notes, const StepTime&) const {

@@ -22,8 +22,10 @@ void FrictionalContact::evaluate_formulas() {
   check_closure();
   if (!formulas_->dilation()) return;
   for (int i = 0; i < count; ++i) {
-    dilation_[i] = dilation_at(i, 0);
-    if (const double opening = dilated(i, 0); opening != 0 && is_on_fracture_cell(i))
+    std::array<double, 1> by;
+    const double opening = formulas_->dilation()->at(i, std::array{0.0}, by, Memory::none);
+    dilation_[i] = by[0];
+    if (opening != 0 && is_on_fracture_cell(i))
       throw DataError(InputError(origin_,
                                  fmt::format("'dilation' is {:.6g} m without slip, at {}", opening,
                                              to_text(mesh_.fracture_cells[i].center)),
@@ -42,7 +44,7 @@ void FrictionalContact::check_closure() const {
   const StateFormula* formula = formulas_->closure();
   for (int i = 0; formula && i < mesh_.fracture_cell_count(); ++i) {
     std::array<double, 1> by;
-    const double without_pressure = formula->at(i, std::array{0.0}, by);
+    const double without_pressure = formula->at(i, std::array{0.0}, by, Memory::none);
     if (!is_on_fracture_cell(i) || (without_pressure == 0 && by[0] >= 0)) continue;
     const std::string where = to_text(mesh_.fracture_cells[i].center);
     const InputError error =
@@ -93,6 +95,14 @@ double FrictionalContact::dilation_at(int i, double slip) const {
 WallState FrictionalContact::wall_state(int i, double path, const SlipOfStep& step, double pressure) const {
   const double slip = step.is_first ? step.size : magnitude<dimension - 1>(tangential(jump_.now(), i));
   return {slip, path, dt_ > 0 ? step.size / dt_ : 0, pressure};
+}
+
+History::StateAt FrictionalContact::state_remembered(bool has_moved) const {
+  return [this, has_moved](int i, std::span<double> state) {
+    const double path = path_ ? path_->now()[i] : 0, pressure = std::max(0.0, -traction_.now()[dimension * i]);
+    const SlipOfStep step = has_moved ? slip_of_step(i, trial(i).tangential) : SlipOfStep{0, TangentialVector::Zero()};
+    std::ranges::copy(wall_state(i, path, step, pressure), state.begin());
+  };
 }
 
 OfWalls FrictionalContact::friction_by_law(int i, const FrictionLaw& law, const WallState& state) const {

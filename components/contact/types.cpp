@@ -12,6 +12,7 @@ namespace sprekk::contact {
 Spec Options::spec(const std::string& type, const std::string& doc) {
   Spec spec(type, doc);
   spec.ignore("type");
+  history.declare(spec, strength_variables());
   spec.data("friction", friction,
             {.range = non_negative(),
              .doc = "Coefficient of friction.",

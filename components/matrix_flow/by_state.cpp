@@ -4,8 +4,10 @@
 
 #include "components/capabilities/formula_of_cells.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
+#include "components/matrix_flow/history_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/state_permeability.hpp"
+#include "components/matrix_flow/storage_formula.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
@@ -14,7 +16,8 @@
 namespace sprekk::matrix_flow {
 
 void MatrixFlow::find_state_permeability() {
-  by_state_ = StatePermeability::find(options_.permeability, mesh_, pressure_, origin_);
+  by_state_ = StatePermeability::find(options_.permeability, mesh_, pressure_, origin_,
+                                      history_ ? &history_->history() : nullptr);
   if (!by_state_) return;
   SPREKK_EXPECT(differentiate_, name());
   if (!inside_.empty())
@@ -23,8 +26,20 @@ void MatrixFlow::find_state_permeability() {
   properties_change_ = true;
 }
 
+void MatrixFlow::find_history(const ComponentContext& context) {
+  if (!history_) return;
+  std::uint32_t recalled = pores_ ? pores_->formula().recalled() : 0;
+  if (by_state_)
+    for (const StateFormula& formula : by_state_->formulas()) recalled |= formula.recalled();
+  history_->history().require_named(recalled, "permeability or porosity");
+  history_->state().offer("p", StateField{&pressure_});
+  history_->history().add_fields(context.fields, mesh_, Location::cell, context.name, pressure_.name());
+}
+
 std::vector<StateOfCells*> MatrixFlow::states() const {
   std::vector<StateOfCells*> all;
+  if (history_) all.push_back(&history_->state());
+  if (stores_) all.push_back(&stores_->state());
   if (by_state_) all.push_back(&by_state_->state());
   if (pores_) all.push_back(&pores_->state());
   return all;
@@ -46,6 +61,7 @@ void MatrixFlow::require_state() const {
   };
   if (by_state_) by_state_->state().require("permeability", origin_, remedy);
   if (pores_) pores_->state().require("porosity", origin_, remedy);
+  if (stores_) stores_->state().require("storage", origin_, remedy);
 }
 
 void MatrixFlow::refuse_with_formula(const std::string& what, const std::string& why) const {
@@ -87,7 +103,7 @@ void MatrixFlow::release_by_state(double share) {
 
 void MatrixFlow::follow_state(const Assembly& assembly) {
   if (!assembly.has_row(pressure_)) return;
-  if (pores_) take_pores(evaluated_for_);
+  if (stores_by_state()) take_pores(evaluated_for_);
   if (!by_state_) return;
   SPREKK_EXPECT(discretized_mesh_ == mesh_.version, name());
   take_permeability();

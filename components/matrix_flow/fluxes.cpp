@@ -3,6 +3,7 @@
 
 #include "components/capabilities/formula_of_cells.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
+#include "components/matrix_flow/history_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/products.hpp"
 #include "framework/field/ownership.hpp"
@@ -139,6 +140,7 @@ void MatrixFlow::report(std::vector<Quantity>& quantities) const {
 }
 
 void MatrixFlow::output(std::vector<OutputField>& fields) const {
+  if (history_) history_->history().output(fields);
   if (pores_) fields.push_back({name() + ".porosity", "", Location::cell, 1, pores_->values()});
   // Cell-wise Darcy velocity from the fluxes: V v = sum over faces of flux · (x_face − x_cell), exact for a constant
   // one. Where faces are bent, in space, that sum is V B v for a constant v, with B the sum of (x_face − x_cell) ⊗ area

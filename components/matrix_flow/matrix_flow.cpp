@@ -5,8 +5,10 @@
 
 #include "components/capabilities/formula_of_cells.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
+#include "components/matrix_flow/history_of_cells.hpp"
 #include "components/matrix_flow/leaky_sides.hpp"
 #include "components/matrix_flow/state_permeability.hpp"
+#include "components/matrix_flow/storage_formula.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
@@ -54,13 +56,15 @@ MatrixFlow::MatrixFlow(const ComponentContext& context, const Options& options, 
   const auto property = [&](const Data& data) { return Property(data, places, context.start_time); };
   initial_pressure_ = property(options_.initial_pressure).values();
   pressure_.set_both(initial_pressure_);
+  history_ = HistoryOfCells::find(options_.history, mesh_, inside_);
   find_state_permeability();
   find_pores(context);
+  find_history(context);
   if (!by_state_) std::ranges::transform(options_.permeability.component, permeability_.begin(), property);
   viscosity_ = property(options_.viscosity);
   if (options_.porosity && !pores_) porosity_ = property(*options_.porosity);
   if (options_.storage) {
-    storage_ = property(*options_.storage);
+    if (!stores_) storage_ = property(*options_.storage);
   } else {
     compressibility_ = property(*options_.fluid_compressibility);
   }
@@ -84,8 +88,9 @@ double MatrixFlow::gravity_potential(const Point& x) const {
 
 void MatrixFlow::begin_step(const StepTime& step) {
   evaluate_data(step);
+  if (history_) history_->begin_step(step);
   if (by_state_) take_permeability();
-  if (pores_) take_pores(evaluated_for_);
+  if (stores_by_state()) take_pores(evaluated_for_);
   linearized_.clear();
   observed_mobility_.clear();
   takes_derivatives_ = true;
@@ -103,7 +108,7 @@ void MatrixFlow::assemble(Assembly& assembly, const StepTime& step) const {
   SPREKK_EXPECT(is_discretized() && boundary_applied_, name());
   SPREKK_ASSERT(capacity_.size() == mesh_.cell_count() && source_.size() == mesh_.cell_count(), capacity_.size());
   BalanceRows fluid(assembly, pressure_, "fluid");
-  if (pores_) {
+  if (stores_by_state()) {
     assemble_stored_by_state(assembly, fluid);
   } else {
     fluid.store(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()),
@@ -137,9 +142,10 @@ void MatrixFlow::after_solve(const std::vector<Field*>& solved, const StepTime& 
   if (std::find(solved.begin(), solved.end(), &pressure_) == solved.end()) return;
   Vector fluxes = face_fluxes();
   if (side_outflow_) correct_leak(fluxes);
-  if (pores_) count_content();
+  if (stores_by_state()) count_content();
+  if (history_) history_->remember(evaluated_for_);
   const Vector stored =
-      pores_ ? stored_by_state() : Vector(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()));
+      stores_by_state() ? stored_by_state() : Vector(capacity_.cwiseProduct(pressure_.now() - pressure_.accepted()));
   Vector sums = cumulative_.accepted();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     if (is_in_cell(c)) sums[3 * c] += stored[c];

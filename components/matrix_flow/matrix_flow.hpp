@@ -23,6 +23,7 @@
 #include "framework/assembly/counts_later.hpp"
 #include "framework/assembly/counts_work.hpp"
 #include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/history/history_options.hpp"
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/assembly/lives_in_part.hpp"
@@ -42,8 +43,10 @@ class StateOfCells;
 namespace sprekk::matrix_flow {
 
 class Buoyancy;
+class HistoryOfCells;
 class LeakySides;
 class StatePermeability;
+class StorageFormula;
 
 /// A point source or sink of fluid.
 struct Well {
@@ -56,6 +59,7 @@ struct Well {
 
 /// Parameters of the flow in the matrix.
 struct Options {
+  HistoryOptions history;
   TensorData permeability;      ///< m^2
   Data viscosity;               ///< Pa s
   std::optional<Data> storage;  ///< 1/Pa
@@ -70,7 +74,8 @@ struct Options {
   std::vector<std::string> regions;  ///< with flow; all if there are none
   Origin regions_origin;
   std::map<std::string, std::string> without_effect;  ///< keys of the component that have no effect, and why
-  Spec spec(const std::string& type, const std::string& doc);
+  /// `takes_formulas`: whether permeability, porosity and storage may follow the state.
+  Spec spec(const std::string& type, const std::string& doc, bool takes_formulas = false);
 
  private:
   void declare_storage(Spec& spec);
@@ -270,8 +275,10 @@ class MatrixFlow : public Component,
   void correct_leak(Vector& fluxes) const;  ///< adds the same to fluxes, m^2/s, as it has been counted
   Vector leaking() const;                   ///< the size of what leaks out of or into each cell, m^2/s
   void use_storage();
-  /// For a porosity by a formula (stored_by_state.cpp). Throws InputError for what the formula excludes.
+  void find_history(const ComponentContext& context);  ///< what formulas remember, after all of them
+  /// For a porosity or a storage by a formula (stored_by_state.cpp). Throws InputError for what the formula excludes.
   void find_pores(const ComponentContext& context);
+  bool stores_by_state() const { return content_ != nullptr; }
   void take_pores(const StepTime& step);  ///< at the present state; throws StateError
   Vector density_ratio() const;           ///< of the fluid, to that at its initial pressure
   Vector content_now() const;             ///< what pores hold at the present state, as content_
@@ -329,8 +336,10 @@ class MatrixFlow : public Component,
   Property viscosity_, porosity_, compressibility_;
   Property storage_;                             ///< 1/Pa; of pores by a formula: the derivative of what they hold
   std::unique_ptr<FormulaOfCells> pores_;        ///< nullptr where the porosity does not follow the state
-  Vector uncounted_;  ///< with pores_ only, on a mesh that has changed: what they hold, and a later solve counts
-  Field* content_ = nullptr;                     ///< with pores_ only: what pores hold, m^2
+  std::unique_ptr<StorageFormula> stores_;       ///< nullptr where the storage does not follow the state
+  Field* content_ = nullptr;                     ///< with one of these only: what rock holds, m^2
+  Vector uncounted_;                             ///< on a mesh that has changed: of this, what a later solve counts
+  std::unique_ptr<HistoryOfCells> history_;      ///< nullptr where nothing is remembered
   std::unique_ptr<StatePermeability> by_state_;  ///< nullptr where the permeability does not follow the state
   DifferentiateFluxes differentiate_;
   std::uint64_t viscosity_of_mobility_ = 0;  ///< version, with by_state_

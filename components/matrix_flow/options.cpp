@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "components/capabilities/fluid_options.hpp"
+#include "components/capabilities/state_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/field/units_of_amounts.hpp"
 
@@ -102,9 +103,14 @@ void Options::declare_storage(Spec& spec) {
   declare_compressibility(spec, fluid_compressibility, "the paper's Table 1", false);
 }
 
-Spec Options::spec(const std::string& type, const std::string& doc) {
+Spec Options::spec(const std::string& type, const std::string& doc, bool takes_formulas) {
   Spec spec(type, doc);
   spec.ignore("type");
+  if (takes_formulas) {
+    history.declare(spec, rock_variables());
+    for (const char* parameter : {"permeability", "porosity", "storage"})
+      may_be_formula(type, parameter, rock_variables());
+  }
   spec.tensor("permeability", permeability,
               {.unit = "m^2",
                .range = non_negative(),

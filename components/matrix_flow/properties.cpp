@@ -131,7 +131,7 @@ void MatrixFlow::use_storage() {
   const double largest = capacity_.maxCoeff();
   for (int c = 0; c < mesh_.cell_count(); ++c)
     if (!is_in_cell(c)) capacity_[c] = largest > 0 ? largest : 1;
-  if (!pores_) capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
+  if (!stores_by_state()) capacity_of_pressure_ = Operator(diagonal_matrix(capacity_));
 }
 
 double MatrixFlow::diffusivity(int cell) const {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "framework/assembly/property.hpp"
@@ -11,21 +12,23 @@
 namespace sprekk::matrix_flow {
 
 std::unique_ptr<StatePermeability> StatePermeability::find(const TensorData& data, const Mesh& mesh, Field& pressure,
-                                                           const Origin& where) {
-  std::unique_ptr<StatePermeability> found(new StatePermeability(data, mesh, pressure, where));
-  const bool is_formula = found->state_.variable_count() > 0;
+                                                           const Origin& where, const History* history) {
+  std::unique_ptr<StatePermeability> found(new StatePermeability(data, mesh, pressure, where, history));
+  const bool is_formula =
+      found->state_.variable_count() > 0 || std::ranges::any_of(found->diagonal_, &StateFormula::is_formula);
   if (is_formula && !data.is_diagonal())
     throw InputError(where, "a permeability that is a formula of the state has entries beside its diagonal",
                      "a formula is taken for each axis alone", "give one formula, or one each for 'xx' and 'yy'");
   return is_formula ? std::move(found) : nullptr;
 }
 
-StatePermeability::StatePermeability(const TensorData& data, const Mesh& mesh, Field& pressure, const Origin& where)
+StatePermeability::StatePermeability(const TensorData& data, const Mesh& mesh, Field& pressure, const Origin& where,
+                                     const History* history)
     : mesh_(mesh), where_(where), state_(mesh) {
   state_.offer("p", StateField{&pressure});
   const std::vector<Place> places = cell_places(mesh);
   for (const Data& component : data.component) {
-    const StateFormula formula(component, rock_variables(), places);
+    const StateFormula formula(component, rock_variables(), places, history);
     state_.let_name(formula);
     if (diagonal_.size() < dimension) diagonal_.push_back(formula);
   }
@@ -34,7 +37,9 @@ StatePermeability::StatePermeability(const TensorData& data, const Mesh& mesh, F
 bool StatePermeability::evaluate(const StepTime& step) {
   bool has_changed = state_.take(step);
   for (StateFormula& formula : diagonal_) has_changed = formula.set_time(step) || has_changed;
-  if (!has_changed && !values_.empty()) return false;
+  std::uint64_t version = 0;
+  for (const StateFormula& formula : diagonal_) version += formula.version_of_history();
+  if (!has_changed && version == version_of_history_ && !values_.empty()) return false;
   std::vector<Tensor> values(mesh_.cell_count(), Tensor::Zero());
   std::vector<std::vector<Tensor>> by(state_.variable_count(), values);
   std::vector<double> state(rock_variables().size(), 0), of_state(state.size());
@@ -57,6 +62,7 @@ bool StatePermeability::evaluate(const StepTime& step) {
     state_.forget();  // so that the next call does not take them for evaluated
     throw;
   }
+  version_of_history_ = version;
   const bool differs = values != values_;
   values_ = std::move(values);
   by_ = std::move(by);

@@ -1,6 +1,7 @@
 // A permeability that is a formula of the state.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -13,11 +14,12 @@ namespace sprekk::matrix_flow {
 class StatePermeability {
  public:
   /// nullptr where the permeability is no formula. Throws InputError at `where` for a tensor that is not given by its
-  /// diagonal.
+  /// diagonal. `history`: what formulas may name beside the state, nullptr for nothing.
   static std::unique_ptr<StatePermeability> find(const TensorData& data, const Mesh& mesh, Field& pressure,
-                                                 const Origin& where);
+                                                 const Origin& where, const History* history);
 
   StateOfCells& state() { return state_; }
+  const std::vector<StateFormula>& formulas() const { return diagonal_; }
 
   /// Evaluates the formulas at the current state in this step. Returns whether a permeability has changed. Throws
   /// StateError, and then all values stay. Collective.
@@ -27,12 +29,14 @@ class StatePermeability {
   const std::vector<Tensor>& by(std::size_t k) const { return by_[k]; }
 
  private:
-  StatePermeability(const TensorData& data, const Mesh& mesh, Field& pressure, const Origin& where);
+  StatePermeability(const TensorData& data, const Mesh& mesh, Field& pressure, const Origin& where,
+                    const History* history);
 
   const Mesh& mesh_;
   Origin where_;
   std::vector<StateFormula> diagonal_;  ///< one for each axis
   StateOfCells state_;
+  std::uint64_t version_of_history_ = 0;
   std::vector<Tensor> values_;
   std::vector<std::vector<Tensor>> by_;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/matrix_flow/history_of_cells.hpp"
 #include "components/matrix_flow/leaky_sides.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/discretization/changes_along_face.hpp"
@@ -11,7 +12,7 @@
 namespace sprekk::matrix_flow {
 
 bool MatrixFlow::depends_on_time() const {
-  return properties_change_ || pores_ || options_.source.depends_on_time() ||
+  return properties_change_ || stores_by_state() || options_.source.depends_on_time() ||
          std::any_of(options_.wells.begin(), options_.wells.end(),
                      [](const auto& well) { return well.second.rate.depends_on_time(); }) ||
          std::any_of(options_.boundary.begin(), options_.boundary.end(), [](const auto& side) {
@@ -20,6 +21,7 @@ bool MatrixFlow::depends_on_time() const {
 }
 
 void MatrixFlow::evaluate_data(const StepTime& step) {
+  if (history_) history_->show(step);
   const bool same_step = evaluated_for_.start == step.start && evaluated_for_.end == step.end;
   const bool is_evaluated = data_evaluated_ && (same_step || !depends_on_time());
   if (properties_change_ && !is_evaluated) {

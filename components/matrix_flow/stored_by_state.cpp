@@ -1,4 +1,5 @@
-// The flow where the porosity is a formula of the state: what rock stores is the change of what its pores hold.
+// The flow where the porosity or the storage is a formula of the state: what rock stores is the change of what it
+// holds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +7,9 @@
 
 #include "components/capabilities/formula_of_cells.hpp"
 #include "components/capabilities/rest_of_balances.hpp"
+#include "components/matrix_flow/history_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
+#include "components/matrix_flow/storage_formula.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
@@ -25,11 +28,14 @@ constexpr int parts = 2;
 }  // namespace
 
 void MatrixFlow::find_pores(const ComponentContext& context) {
-  if (!options_.porosity || options_.storage) return;
-  pores_ = FormulaOfCells::find(*options_.porosity, mesh_);
-  if (!pores_) return;
-  pores_->state().offer("p", StateField{&pressure_});
-  if (options_.fluid_compressibility->depends_on_time())
+  const History* history = history_ ? &history_->history() : nullptr;
+  if (options_.storage)
+    stores_ = StorageFormula::find(*options_.storage, mesh_, pressure_, history, origin_);
+  else if (options_.porosity)
+    pores_ = FormulaOfCells::find(*options_.porosity, mesh_, history);
+  if (!pores_ && !stores_) return;
+  (pores_ ? pores_->state() : stores_->state()).offer("p", StateField{&pressure_});
+  if (pores_ && options_.fluid_compressibility->depends_on_time())
     throw InputError(origin_,
                      "the porosity of '" + name() + "' follows the state, and 'fluid_compressibility' depends on time",
                      "what pores hold would change at once with a property of the fluid",
@@ -45,6 +51,11 @@ bool MatrixFlow::porosity_depends_on(const std::string& variable) const {
 }
 
 void MatrixFlow::take_pores(const StepTime& step) {
+  if (stores_) {
+    if (!stores_->evaluate(step, initial_pressure_, inside_) && storage_.values().size() > 0) return;
+    storage_.set(stores_->by_pressure().cwiseMax(0));
+    return use_storage();
+  }
   if (!pores_->evaluate(step, inside_) && storage_.values().size() > 0) return;
   const Vector &phi = pores_->values(), &c = compressibility_.values();
   Vector by_pressure = phi.cwiseProduct(c);
@@ -68,8 +79,13 @@ Vector MatrixFlow::density_ratio() const {
 }
 
 Vector MatrixFlow::content_now() const {
-  const Vector& phi = pores_->values();
   Vector content(parts * mesh_.cell_count());
+  if (stores_) {
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      content.segment<parts>(parts * c) << mesh_.cell_measure[c] * stores_->stored()[c], 0;
+    return content;
+  }
+  const Vector& phi = pores_->values();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
     content[parts * c] = mesh_.cell_measure[c] * phi[c];
     content[parts * c + 1] =
@@ -92,12 +108,12 @@ void MatrixFlow::assemble_stored_by_state(Assembly& assembly, BalanceRows& fluid
   fluid.store(stored, last_digits * content_->accepted().lpNorm<Eigen::Infinity>());
   if (!assembly.wants_derivatives()) return;
   assembly.diagonal(pressure_, pressure_, capacity_);
-  const Vector volumes =
-      density_ratio().cwiseProduct(Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count()));
-  const StateOfCells& state = pores_->state();
+  Vector volumes = Eigen::Map<const Vector>(mesh_.cell_measure.data(), mesh_.cell_count());
+  if (pores_) volumes = density_ratio().cwiseProduct(volumes);
+  const StateOfCells& state = pores_ ? pores_->state() : stores_->state();
   for (std::size_t k = 0; k < state.variable_count(); ++k) {
     if (rock_variables()[state.variable(k)].name == "p") continue;
-    const Vector factors = volumes.cwiseProduct(pores_->by(k));
+    const Vector factors = volumes.cwiseProduct(pores_ ? pores_->by(k) : stores_->by(k));
     for (const auto& [field, of_variable] : state.derivatives_of_variable(k))
       if (assembly.has_row(*field))
         assembly.derivative(pressure_, *field, SparseMatrix(factors.asDiagonal() * of_variable));
@@ -112,7 +128,7 @@ void MatrixFlow::count_content() {
 /// What remains of a balance after the last pass is in the rock, although its pores do not hold it yet: the next step
 /// stores it.
 void MatrixFlow::count_rest_later(const Assembly& assembly) {
-  if (!pores_ || !assembly.has_row(pressure_)) return;
+  if (!stores_by_state() || !assembly.has_row(pressure_)) return;
   const Vector rest = rest_of_balances(assembly, pressure_, mesh_, [&](int cell) { return is_in_cell(cell); });
   Vector content = content_->now(), sums = cumulative_.now();
   for (int c = 0; c < mesh_.cell_count(); ++c) {
@@ -124,7 +140,7 @@ void MatrixFlow::count_rest_later(const Assembly& assembly) {
 }
 
 void MatrixFlow::count_amounts_from_here(const SettledFields&) {
-  if (!pores_) return;
+  if (!stores_by_state()) return;
   take_pores({evaluated_for_.start, 0, evaluated_for_.start});
   content_->set_both(content_now());
 }
@@ -132,7 +148,8 @@ void MatrixFlow::count_amounts_from_here(const SettledFields&) {
 /// A change of the mesh must not change the fluid in the pores: from now on they hold what the state says, without what
 /// was not counted before, and the difference of both totals is spread evenly over the new cells.
 void MatrixFlow::settled(const MeshChange& change) {
-  if (!pores_ || change.is_at_start) return;
+  if (history_) history_->history().hold(false);
+  if (!stores_by_state() || change.is_at_start) return;
   take_pores(evaluated_for_);
   Vector content = content_now();
   content(Eigen::seq(0, Eigen::last, parts)) -= uncounted_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "framework/assembly/history/history.hpp"
 #include "framework/assembly/linear_expression.hpp"
 #include "framework/assembly/step_time.hpp"
 #include "framework/config/input_error.hpp"
@@ -19,20 +20,29 @@ namespace sprekk {
 /// A datum that may be a formula, at fixed places.
 class StateFormula {
  public:
-  StateFormula(Data data, const StateVariables& variables, std::vector<Place> places)
+  /// `history`: what it may name besides the variables, and must outlive it; it then changes with what that follows.
+  StateFormula(Data data, const StateVariables& variables, std::vector<Place> places, const History* history = nullptr)
       : data_(std::move(data)), variables_(&variables), places_(std::move(places)) {
     if (data_.is_constant()) return;
+    const StateVariables& all = history ? joined(variables, history->variables()) : variables;
     for (Place place : places_) {
-      named_ |= variables_named(data_, place, variables);
+      named_ |= variables_named(data_, place, all);
       for (const double t : data_.switch_times())  // what holds before, and from there on
         for (const double time : {std::nextafter(t, -std::numeric_limits<double>::infinity()), t}) {
           place.t = time;
-          named_ |= variables_named(data_, place, variables);
+          named_ |= variables_named(data_, place, all);
         }
     }
+    if (!history) return;
+    history_ = {*history, variables, named_};
+    named_ |= history_.followed();
   }
   bool is_formula() const { return named_ != 0; }  ///< at some place
+  /// Whether it changes with a variable, by itself or by what it remembers.
   bool names(std::size_t variable) const { return (named_ >> variable & 1U) != 0; }
+  std::uint32_t recalled() const { return history_.taken(); }  ///< a bit for each variable of the history
+  /// Changes when values do that are remembered from before the step.
+  std::uint64_t version_of_history() const { return history_.version(); }
   const StateVariables& variables() const { return *variables_; }
   /// From now on `at` gives the values of this step (value_in_step). Returns whether they may differ from those before.
   bool set_time(const StepTime& step) {
@@ -41,9 +51,11 @@ class StateFormula {
     for (Place& place : places_) place.t = t;
     return true;
   }
-  /// As value_at_state.
-  double at(int place, std::span<const double> values, std::span<double> by) const {
-    return value_at_state(data_, places_[static_cast<std::size_t>(place)], *variables_, values, by);
+  /// As value_at_state; derivatives are those of the whole formula, with what it remembers.
+  double at(int place, std::span<const double> values, std::span<double> by, Memory memory = Memory::kept) const {
+    const Place& at = places_[static_cast<std::size_t>(place)];
+    if (history_.is_needed()) return history_.at(data_, at, place, values, by, memory);
+    return value_at_state(data_, at, *variables_, values, by);
   }
 
  private:
@@ -51,6 +63,7 @@ class StateFormula {
   const StateVariables* variables_;
   std::vector<Place> places_;
   std::uint32_t named_ = 0;
+  TakesHistory history_;
 };
 
 /// A variable on the entities of a field: one of its components, times a factor.

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "framework/config/unknown_key.hpp"
 #include "framework/formula/jumps.hpp"
@@ -185,27 +187,47 @@ struct Resized {
   UnitSizes sizes;
   const StateVariables& state;
 
+  Resized(formula::Program as_usual, formula::Program as_resized, const UnitSizes& unit_sizes,
+          const StateVariables& variables)
+      : before(std::move(as_usual)), after(std::move(as_resized)), sizes(unit_sizes), state(variables) {}
+
   /// Whether its values change as those of a quantity with this dimension, with places and times as plain numbers or
   /// with units.
   bool has_dimension(const Dimension& dimension, bool has_length, bool has_time) const {
     constexpr double rounding = 1e-9;  // powers of units after a few operations
-    int decade = 9;                    // of the state: from large values to small ones, in SI units
+    for (const auto& [first, value] : values(has_length, has_time)) {
+      const double expected = in_sizes(dimension, sizes) * first;
+      if (!std::isfinite(expected) || !std::isfinite(value)) continue;
+      if (std::abs(value - expected) > rounding * std::max(std::abs(value), std::abs(expected))) return false;
+    }
+    return true;
+  }
+
+  /// By which factor its values change; 1 where none is known.
+  double factor(bool has_length, bool has_time) const {
+    for (const auto& [first, value] : values(has_length, has_time))
+      if (const double change = value / first; std::isfinite(change) && change > 0) return change;
+    return 1;
+  }
+
+ private:
+  /// Values before and after, at a few places and states.
+  std::vector<std::pair<double, double>> values(bool has_length, bool has_time) const {
+    int decade = 9;  // of the state: from large values to small ones, in SI units
+    std::vector<std::pair<double, double>> all;
     for (const Place& place : test_places()) {
-      std::vector<double> values, resized_values;
+      std::vector<double> of_state, resized_state;
       for (const StateVariable& variable : state) {
-        values.push_back(times.front() * std::pow(10, decade));
-        resized_values.push_back(values.back() * in_sizes(parse_unit(variable.unit).dimension, sizes));
+        of_state.push_back(times.front() * std::pow(10, decade));
+        resized_state.push_back(of_state.back() * in_sizes(parse_unit(variable.unit).dimension, sizes));
       }
       --decade;
       Place resized = place;
       if (has_length) resized.x *= sizes[0];
       if (has_time) resized.t *= sizes[2];
-      const double expected = in_sizes(dimension, sizes) * before.at(variables_at(place, values)),
-                   value = after.at(variables_at(resized, resized_values));
-      if (!std::isfinite(expected) || !std::isfinite(value)) continue;
-      if (std::abs(value - expected) > rounding * std::max(std::abs(value), std::abs(expected))) return false;
+      all.emplace_back(before.at(variables_at(place, of_state)), after.at(variables_at(resized, resized_state)));
     }
-    return true;
+    return all;
   }
 };
 
@@ -231,6 +253,43 @@ LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, con
     for (const bool has_time : {false, true})
       if (expression.has_dimension(dimension, has_length, has_time)) return LackOfUnit::none;
   return has_units ? LackOfUnit::of_a_term : LackOfUnit::any;
+}
+
+std::optional<Dimension> dimension_of(const std::string& text, const Origin& where, const StateVariables& state) {
+  constexpr double size = 1.01;    // near 1, so that conditions in the expression keep their outcomes
+  constexpr double fraction = 12;  // exponents are multiples of 1/12: roots of squares, cubes and their products
+  const formula::Program usual = parse(text, state, where).program;
+  for (const bool has_length : {true, false})
+    for (const bool has_time : {true, false}) {
+      Dimension dimension;
+      for (std::size_t i = 0; i < dimension.exponents.size(); ++i) {
+        UnitSizes sizes = usual_sizes;
+        sizes[i] = size;
+        const Resized resized(usual, parse(text, state, where, sizes).program, sizes, state);
+        const double exponent = std::log(resized.factor(has_length, has_time)) / std::log(size);
+        dimension.exponents[i] = std::round(fraction * exponent) / fraction;
+      }
+      if (lack_of_unit(text, dimension, where, state) == LackOfUnit::none) return dimension;
+    }
+  return std::nullopt;
+}
+
+bool names(const std::string& text, const std::string& name) {
+  const auto is_of_name = [&](std::size_t at) {
+    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+    if ((at == 0 || !is_of_name(at - 1)) && !is_of_name(at + name.size())) return true;
+  return false;
+}
+
+bool is_free_name(const std::string& name, const StateVariables& state) {
+  try {
+    formula::parse(name, names_of(state, usual_sizes));
+  } catch (const formula::Problem& problem) {
+    return problem.unknown == name;
+  }
+  return false;
 }
 
 }  // namespace sprekk

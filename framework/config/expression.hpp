@@ -1,6 +1,7 @@
 // Expressions of place, time and the state as data.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "framework/config/input_error.hpp"
@@ -23,6 +24,20 @@ enum class LackOfUnit { none, any, of_a_term };
 /// malformed.
 LackOfUnit lack_of_unit(const std::string& text, const Dimension& dimension, const Origin& where,
                         const StateVariables& state);
+
+/// The dimension that the units of an expression give it (as lack_of_unit understands places and times); none where its
+/// terms have different ones. Throws InputError when it is malformed.
+std::optional<Dimension> dimension_of(const std::string& text, const Origin& where, const StateVariables& state);
+/// The SI unit of a dimension: a name of its own, or a product of powers.
+std::string si_unit(const Dimension& dimension);
+/// The SI unit of such an expression as data may be written (parse_data); also of a number with a unit. Throws
+/// InputError where its terms have different units. `name`: of the parameter, for messages.
+std::string unit_of_data(const std::string& text, const Origin& where, const std::string& name,
+                         const StateVariables& state);
+/// Whether a name stands in the text of an expression.
+bool names(const std::string& text, const std::string& name);
+/// Whether a name means nothing in an expression yet.
+bool is_free_name(const std::string& name, const StateVariables& state);
 
 /// "x = 1, y = 2, t = 3" for messages about evaluations, with the state while formulas see one.
 std::string place_text(const Place& place);

@@ -1,6 +1,10 @@
 // Distinguishes quantities from expressions, and separates expressions from the unit behind them.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <optional>
 
 #include "framework/config/expression.hpp"
 #include "framework/config/number.hpp"
@@ -121,6 +125,31 @@ void require_unit(const std::string& expression, const std::string& unit, const 
 }
 
 }  // namespace
+
+std::string si_unit(const Dimension& dimension) {
+  for (const char* known :
+       {"", "m", "s", "K", "Pa", "m/s", "1/s", "1/m", "1/Pa", "m^2", "m^3", "Pa*s", "Pa*m", "Pa*m/s", "Pa/s", "N", "J"})
+    if (parse_unit(known).dimension == dimension) return known;
+  constexpr std::array base = {"m", "kg", "s", "K", "rad"};
+  std::string product;
+  for (std::size_t i = 0; i < base.size(); ++i)
+    if (const double exponent = dimension.exponents[i]; exponent != 0)
+      product += fmt::format("{}{}^{}", product.empty() ? "" : "*", base[i], exponent);
+  return product;
+}
+
+std::string unit_of_data(const std::string& text, const Origin& where, const std::string& name,
+                         const StateVariables& state) {
+  const Split split = split_off_unit(with_products(trimmed(text)));
+  std::optional<Dimension> dimension;
+  if (split.unit.empty())
+    dimension = dimension_of(split.expression, where, state);
+  else if (is_unit(split.unit))
+    dimension = parse_unit(split.unit).dimension;
+  if (dimension) return si_unit(*dimension);
+  throw InputError(where, quoted(text) + " for " + quoted(name) + " has no unit of its own",
+                   "its terms have different units, or one of them has none", "multiply each of its terms by its unit");
+}
 
 Data parse_data(const std::string& text, const std::string& unit, const Origin& where, const std::string& name) {
   const StateVariables& state = ReadsFormula::variables();

@@ -12,17 +12,19 @@
 namespace sprekk {
 namespace {
 
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Two formulas that name the same thing may have the same mistake, which is told once.
 template <class Action>
 void collect(std::vector<std::string>& problems, const Action& action) {
   try {
     action();
   } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    for (const std::string& problem : error.problems())
+      if (!contains(problems, problem)) problems.push_back(problem);
   }
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 void require_si_unit(const Spec& spec, const Parameter& parameter) {
@@ -94,6 +96,7 @@ void Spec::read(const Node& node, const ReadContext& context) const {
   if (!node.is_map() && !node.is_null()) {
     throw wrong_kind(node, node.path.empty() ? name_ : node.path, "a map of parameters");
   }
+  const ReadsMap reading;
   std::vector<std::string> problems;
   std::vector<std::string> meant;  // parameters that are there, but misspelt: not reported again as missing
   read_unknown_keys(node, problems, meant);
@@ -140,7 +143,7 @@ void Spec::read_parameter(std::size_t i, const Node& node, const ReadContext& co
   }
   const std::string path = joined_path(node.path, parameter.name);
   if (value != nullptr) {
-    const ReadsFormula formula(formula_variables(name_, parameter.name));
+    const ReadsFormula formula(with_declared(formula_variables(name_, parameter.name)));
     const ReadsParameter reading(parameter.name);
     readers_[i](*value, context);
     if (context.record && !is_section(parameter)) context.record(path, value->text(), value->origin.text());

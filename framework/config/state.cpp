@@ -1,7 +1,9 @@
 #include "framework/config/state.hpp"
 
 #include <algorithm>
+#include <list>
 #include <map>
+#include <utility>
 
 #include "framework/config/input_error.hpp"
 #include "framework/config/unknown_key.hpp"
@@ -12,6 +14,13 @@ namespace {
 thread_local const StateNow* now = nullptr;
 thread_local const StateVariables* read_now = nullptr;
 thread_local const std::string* parameter_now = nullptr;
+thread_local std::function<StateVariables()> declared_now;
+
+bool are_the_same(const StateVariables& one, const StateVariables& other) {
+  return std::ranges::equal(one, other, [](const StateVariable& a, const StateVariable& b) {
+    return a.name == b.name && a.unit == b.unit && a.doc == b.doc;
+  });
+}
 
 /// By the names of a spec and of a parameter: a spec is made anew for each map that it reads.
 std::map<std::pair<std::string, std::string>, const StateVariables*>& formula_parameters() {
@@ -102,6 +111,24 @@ std::string formula_takers(const std::string& variable) {
   if (takers.empty()) return "";
   return "a formula of " + quoted(variable) + " is taken as " + quoted(*parameter_now) + " by " + listed(takers) +
          ", and not here";
+}
+
+const StateVariables& joined(const StateVariables& first, const StateVariables& second) {
+  static std::list<StateVariables> all;
+  StateVariables both = first;
+  both.insert(both.end(), second.begin(), second.end());
+  for (const StateVariables& known : all)
+    if (are_the_same(known, both)) return known;
+  return all.emplace_back(std::move(both));
+}
+
+ReadsMap::ReadsMap() : before_(declared_now) {}
+ReadsMap::~ReadsMap() { declared_now = std::move(before_); }
+
+void let_formulas_name(std::function<StateVariables()> further) { declared_now = std::move(further); }
+
+const StateVariables* with_declared(const StateVariables* variables) {
+  return variables && declared_now ? &joined(*variables, declared_now()) : variables;
 }
 
 ReadsFormula::ReadsFormula(const StateVariables* variables) : before_(read_now) { read_now = variables; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,6 +58,26 @@ class ReadsFormula {
  private:
   const StateVariables* before_;
 };
+
+/// The variables of two sets behind one another. The same ones are the same object, which lives as long as the program.
+const StateVariables& joined(const StateVariables& first, const StateVariables& second);
+
+/// A guard around the reading of a map of parameters: what let_formulas_name has added meanwhile ends with it.
+class ReadsMap {
+ public:
+  ReadsMap();
+  ~ReadsMap();
+  ReadsMap(const ReadsMap&) = delete;
+  ReadsMap& operator=(const ReadsMap&) = delete;
+
+ private:
+  std::function<StateVariables()> before_;
+};
+/// Lets the formulas of all further parameters of the map that is being read name what the map itself declares.
+/// `further` is asked when a formula is read, and may throw InputError.
+void let_formulas_name(std::function<StateVariables()> further);
+/// The variables of a parameter, with those that formulas may name now beside them; nullptr for nullptr.
+const StateVariables* with_declared(const StateVariables* variables);
 
 /// The state that formulas read during a call of value_at_state, in this thread.
 struct StateNow {

@@ -83,9 +83,13 @@ class Properties {
     for (const Spec& spec : scene_section_specs())
       if (const Node* section = scene.whole.find(spec.name())) read_map(spec, *section, always({}));
     const Node* components = scene.whole.find("components");
-    for (const Scene::ComponentEntry& component : scene.components)
-      read_map(Registry::instance().component(component.type, component.origin).spec(),
-               *components->find(component.name), always(places.of({component.name})));
+    for (const Scene::ComponentEntry& component : scene.components) {
+      const Node& map = *components->find(component.name);
+      if (const Node* history = map.find("history")) remembered_ = history->entries;
+      read_map(Registry::instance().component(component.type, component.origin).spec(), map,
+               always(places.of({component.name})));
+      remembered_.clear();
+    }
     for (const Scene::CouplerEntry& coupler : scene.couplers)
       for (const Node& node : scene.whole.find("couplers")->items)
         if (node.origin.text() == coupler.origin.text())
@@ -159,6 +163,8 @@ class Properties {
 
   /// An expression takes the most unusual of its values.
   void read_scalar(PropertyValue property, const Node& node, const Extent& extent) {
+    if (std::ranges::any_of(remembered_, [&](const Node::Entry& entry) { return names(node.scalar, entry.key); }))
+      return;
     const Data data = parse_data(node.scalar, property.unit, node.origin, property.name);
     if (!data.is_constant() && variables_named(data, {}, ReadsFormula::variables()) != 0) return;
     if (data.is_constant()) return add(std::move(property), data.at({}), node.scalar, node.origin);
@@ -227,6 +233,7 @@ class Properties {
   const Scene& scene_;
   const Mesh& mesh_;
   std::vector<std::string> fracture_names_;
+  std::vector<Node::Entry> remembered_;  ///< of the component that is read: formulas may name them
   std::vector<PropertyValue> all_;
 };
 

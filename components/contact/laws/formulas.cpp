@@ -24,13 +24,19 @@ const StateVariables& closure_variables() {
   return variables;
 }
 
-Formulas::Formulas(const LawData& laws, std::unique_ptr<FrictionLaw> friction_law, const std::vector<Place>& places)
+Formulas::Formulas(const LawData& laws, std::unique_ptr<FrictionLaw> friction_law, const std::vector<Place>& places,
+                   const History* history)
     : friction_law_(std::move(friction_law)) {
-  if (StateFormula friction(laws.friction, strength_variables(), places); friction.is_formula())
+  if (StateFormula friction(laws.friction, strength_variables(), places, history); friction.is_formula())
     friction_.emplace(std::move(friction));
-  if (!laws.cohesion.is_constant()) cohesion_.emplace(laws.cohesion, strength_variables(), places);
-  if (laws.dilation) dilation_.emplace(*laws.dilation, dilation_variables(), places);
-  if (laws.closure) closure_.emplace(*laws.closure, closure_variables(), places);
+  if (!laws.cohesion.is_constant()) cohesion_.emplace(laws.cohesion, strength_variables(), places, history);
+  if (laws.dilation) dilation_.emplace(*laws.dilation, dilation_variables(), places, history);
+  if (laws.closure) closure_.emplace(*laws.closure, closure_variables(), places, history);
+  if (!history) return;
+  std::uint32_t recalled = 0;
+  for (const StateFormula* formula : {this->friction(), cohesion(), dilation(), closure()})
+    if (formula) recalled |= formula->recalled();
+  history->require_named(recalled, "friction, cohesion, dilation or closure");
 }
 
 void Formulas::set_time(const StepTime& step) {

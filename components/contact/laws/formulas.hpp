@@ -24,7 +24,9 @@ struct LawData {
 class Formulas {
  public:
   /// `friction_law`: null where friction is a number, a formula, or that of a built-in law.
-  Formulas(const LawData& laws, std::unique_ptr<FrictionLaw> friction_law, const std::vector<Place>& places);
+  /// `history`: what formulas may name beside their variables, nullptr for nothing.
+  Formulas(const LawData& laws, std::unique_ptr<FrictionLaw> friction_law, const std::vector<Place>& places,
+           const History* history);
   void set_time(const StepTime& step);
 
   const StateFormula* friction() const { return pointer(friction_); }

@@ -50,6 +50,7 @@ void FractureFlow::bound_pressure(Assembly& assembly, const Vector& stored_by_fi
 /// Cells in the place of a replaced one share its opening unevenly, so an even share of what is empty could be more
 /// than they hold. Each gets the same part of its opening; the volume stays.
 void FractureFlow::settled(const MeshChange& change) {
+  if (history_) history_->hold(false);
   if (!empty_ || change.replaced_parts.empty()) return;
   // Cells that have replaced the same ones.
   std::map<int, int> group_of_old, group_of_new;
@@ -92,7 +93,8 @@ std::uint64_t FractureFlow::discrete_state() const {
   return hash;
 }
 
-void FractureFlow::begin_step(const StepTime&) {
+void FractureFlow::begin_step(const StepTime& step) {
+  if (history_) history_->begin_step({step.start, step.dt, step.end}, state_remembered());
   share_points_at_start();
   if (density_) weigh_links();
   if (!empty_) return;

@@ -76,7 +76,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     if (!is_in_fracture_cell(i)) initial_pressure[i] = 0;
   pressure_.set_both(std::move(initial_pressure));
   law_ = options_.law.make(options_.aperture_floor);
-  prepare_formula();
+  prepare_formula(context.fields);
   viscosity_ = property(options_.viscosity);
   compressibility_ = property(options_.fluid_compressibility);
   inertia_ = property(options_.law.inertia);
@@ -103,6 +103,7 @@ std::vector<const Data*> FractureFlow::properties() const {
 }
 
 void FractureFlow::carry_over(const Part&, const MeshChange& change) {
+  if (history_) history_->hold(true);
   // A cell that covers a given-up one has its pressure, and its fluid is spread over the new length.
   const Vector covered = covered_parts(change, mesh_);
   const auto is_new = [&](int cell) { return covered[cell] == 0; };
@@ -190,6 +191,7 @@ void FractureFlow::evaluate_data(const StepTime& step) {
     means->evaluate(step);
   for (MeansAlong& means : transmissivity_of_part_) means.evaluate(step);
   if (formula_) formula_->set_time(step);
+  if (history_) history_->show({step.start, step.dt, step.end}, state_remembered());
   make_links(step);
   prescribe(step);
 }
@@ -331,6 +333,7 @@ void FractureFlow::after_solve(const std::vector<Field*>& solved, const StepTime
     if (link.second == none) sums[3 * link.first + 2] += step.dt * flux_.now()[link.ridge];
   cumulative_.set(std::move(sums));
   let_in_of_step_ = let_in_;
+  if (history_) history_->remember(state_remembered());
 }
 
 void FractureFlow::balance(std::map<std::string, Balance>& balances) const {

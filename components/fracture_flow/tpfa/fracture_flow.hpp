@@ -91,6 +91,7 @@ class FractureFlow : public Component,
   std::vector<double> switch_times() const override;
   bool stores_nothing_somewhere() const override { return compressibility_.values().minCoeff() == 0; }
   void report(std::vector<Quantity>& quantities) const override;
+  void output(std::vector<OutputField>& fields) const override;
   std::uint64_t discrete_state() const override;
   void note_input(Notes& notes) const override;
   void note_start(Notes& notes) const override;
@@ -151,7 +152,8 @@ class FractureFlow : public Component,
   Vector no_derivatives(const Junction& junction) const {
     return Vector::Zero(kinds_of_columns() * std::ssize(junction.cells));
   }
-  void prepare_formula();
+  void prepare_formula(FieldStore& fields);
+  History::StateAt state_remembered() const;
   ConductionState state_in(int cell) const;  ///< the aperture is not set
   Transmissivity transmissivity(int cell) const;
   /// The same for the half of the cell at one of its ridges.
@@ -319,6 +321,7 @@ class FractureFlow : public Component,
   std::vector<char> wet_;  ///< one flag a cell: whether there is a flow; empty where there is a flow everywhere
   Vector initial_aperture_;
   std::unique_ptr<HydraulicLaw> law_;
+  std::unique_ptr<History> history_;         ///< nullptr where nothing is remembered
   std::optional<StateFormula> formula_;      ///< of the transmissivity, instead of the law
   double lowest_ = 0;                        ///< m, of the hydraulic aperture by a formula
   StateFields state_;                        ///< what the formula may name

@@ -6,10 +6,16 @@
 
 namespace sprekk::fracture_flow {
 
-void FractureFlow::prepare_formula() {
+void FractureFlow::prepare_formula(FieldStore& fields) {
   const Data* data = options_.conduction_formula();
+  const std::vector<Place> places = fracture_cell_places(mesh_);
+  history_ = History::find(options_.history, conduction_variables(), places, wet_);
+  if (data) formula_.emplace(*data, conduction_variables(), places, history_.get());
+  if (history_) {
+    history_->require_named(formula_ ? formula_->recalled() : 0, "transmissivity");
+    history_->add_fields(fields, mesh_, Location::fracture_cell, name(), pressure_.name());
+  }
   if (!data) return;
-  formula_.emplace(*data, conduction_variables(), fracture_cell_places(mesh_));
   lowest_ = std::max(options_.aperture_floor, options_.law.residual.value_or(0));
   for (std::size_t k = of_pressure; k < conduction_variable_count; ++k)
     if (formula_->names(k)) named_.push_back(k);
@@ -30,6 +36,18 @@ ConductionState FractureFlow::state_in(int cell) const {
   ConductionState state{aperture_.now()[cell]};
   for (const std::size_t k : named_) state[k] = state_.now(k, cell);
   return state;
+}
+
+History::StateAt FractureFlow::state_remembered() const {
+  return [this](int cell, std::span<double> state) {
+    ConductionState now = state_in(cell);
+    now[of_aperture] = std::max(now[of_aperture], lowest_);
+    std::ranges::copy(now, state.begin());
+  };
+}
+
+void FractureFlow::output(std::vector<OutputField>& fields) const {
+  if (history_) history_->output(fields);
 }
 
 FractureFlow::Hydraulic FractureFlow::hydraulic_by_law(int cell, ConductionState state) const {

@@ -198,10 +198,11 @@ void Options::read_transmissivity(const Node& node) {
       std::ranges::all_of(transmissivity, [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; });
   if (is_name && transmissivity != "a")
     throw unknown_name(given->origin, "value of 'transmissivity':", transmissivity, {"cubic_law", "constant"});
-  const ReadsFormula formula(&conduction_variables());
+  const StateVariables& variables = *with_declared(&conduction_variables());
+  const ReadsFormula formula(&variables);
   const About about{.unit = "m^3", .range = non_negative(), .in_time = true};
   const Data data = read_data(*given, {"transmissivity", about, {}});
-  if (!data.is_constant() && variables_named(data, {}, conduction_variables()) != 0) {
+  if (!data.is_constant() && variables_named(data, {}, variables) != 0) {
     transmissivity_formula = data;
   } else {
     transmissivity = "constant";
@@ -248,6 +249,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                 "for wells with limits");
   Spec spec(type, doc);
   spec.ignore("type");
+  history.declare(spec, conduction_variables());
   declare_fluid(spec);
   spec.data("initial_aperture", initial_aperture,
             {.unit = "m",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/fracture_flow/laws/law_options.hpp"
+#include "framework/assembly/history/history_options.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/scene/crossings.hpp"
 
@@ -52,6 +53,7 @@ struct EndCondition {
 
 /// Parameters of the flow in fractures.
 struct Options {
+  HistoryOptions history;
   Data viscosity;              ///< Pa s
   Data fluid_compressibility;  ///< 1/Pa
   Data initial_aperture;       ///< m

@@ -1,5 +1,4 @@
 // matrix_flow/mpfa: flow in the matrix with the multi-point flux approximation.
-#include "components/capabilities/state_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/mpfa/by_mobility.hpp"
 #include "components/matrix_flow/mpfa/mpfa.hpp"
@@ -11,12 +10,10 @@ namespace {
 
 struct MpfaOptions : Options {
   Spec spec() {
-    Spec spec = Options::spec("matrix_flow/mpfa",
-                              "Flow in the matrix (the paper's Eq. 6): multi-point flux approximation, exact for "
-                              "linear pressures on any mesh.");
-    may_be_formula(spec.name(), "permeability", rock_variables());
-    may_be_formula(spec.name(), "porosity", rock_variables());
-    return spec;
+    return Options::spec("matrix_flow/mpfa",
+                         "Flow in the matrix (the paper's Eq. 6): multi-point flux approximation, exact for "
+                         "linear pressures on any mesh.",
+                         true);
   }
 };
 

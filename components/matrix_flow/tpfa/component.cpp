@@ -1,5 +1,4 @@
 // matrix_flow/tpfa: flow in the matrix with this flux approximation.
-#include "components/capabilities/state_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "components/matrix_flow/tpfa/tpfa.hpp"
 #include "framework/scene/registry.hpp"
@@ -9,12 +8,10 @@ namespace {
 
 struct TpfaOptions : Options {
   Spec spec() {
-    Spec spec = Options::spec("matrix_flow/tpfa",
-                              "Flow in the matrix (the paper's Eq. 6): two-point flux approximation, monotone; "
-                              "consistent on orthogonal meshes only.");
-    may_be_formula(spec.name(), "permeability", rock_variables());
-    may_be_formula(spec.name(), "porosity", rock_variables());
-    return spec;
+    return Options::spec("matrix_flow/tpfa",
+                         "Flow in the matrix (the paper's Eq. 6): two-point flux approximation, monotone; "
+                         "consistent on orthogonal meshes only.",
+                         true);
   }
 };
 

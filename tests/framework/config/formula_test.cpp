@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "framework/config/expression.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/config/state.hpp"
 #include "framework/config/units.hpp"
@@ -131,6 +132,28 @@ TEST(Formula, TellsTheStateInWhichItHasNoValue) {
   EXPECT_THAT(explain(spec), HasSubstr("A formula may name slip (slip, m), sigma_n (normal stress, Pa)."));
   EXPECT_THAT(json_schema(spec), HasSubstr("A formula may name slip"));
   EXPECT_THAT(reference_page(spec), HasSubstr("A formula may name slip"));
+}
+
+TEST(UnitOfData, FollowsFromItsTerms) {
+  const auto unit = [](const std::string& text) { return unit_of_data(text, here, "p", variables); };
+  EXPECT_EQ(unit("slip"), "m");
+  EXPECT_EQ(unit("sigma_n*slip"), "Pa*m");
+  EXPECT_EQ(unit("sqrt(slip^2)/m + 3"), "");
+  EXPECT_EQ(unit("max(0, sigma_n - 3 MPa)"), "Pa");
+  EXPECT_EQ(unit("(slip/m) MPa"), "Pa");
+  EXPECT_EQ(unit("1"), "");
+  EXPECT_EQ(unit("5 kg/m^3"), "m^-3*kg^1");
+  EXPECT_TRUE(have_one_dimension(unit("5 kg/m^3*sqrt(slip)"), "kg*m^-2.5"));
+  EXPECT_EQ(unit("slip*(1 + t/day)"), "m");
+  EXPECT_THROW(unit("slip + sigma_n"), InputError);
+  EXPECT_THROW(unit("slip + 1"), InputError);
+}
+
+TEST(Names, AreWholeWords) {
+  EXPECT_TRUE(names("2*slip + 1", "slip"));
+  EXPECT_FALSE(names("2*slip_rate + aslip + slip2", "slip"));
+  EXPECT_TRUE(is_free_name("work", variables));
+  for (const char* taken : {"slip", "x", "t", "pi", "mm", "sqrt", "max"}) EXPECT_FALSE(is_free_name(taken, variables));
 }
 
 }  // namespace
