@@ -323,7 +323,7 @@ std::vector<Triplet> LocalElimination::answers_together(const SparseMatrix& colu
 }
 
 LinearReport LocalElimination::factor(const LinearSystem& system, const Partition& partition,
-                                      const std::vector<SparseMatrix>& bulk) {
+                                      const std::vector<Vector>& diagonals) {
   const int unknowns = static_cast<int>(partition.local().unknowns.size());
   if (unknowns == 0) return LinearReport::success();
   const int local = static_cast<int>(partition.parts.size()) - 1;
@@ -337,7 +337,7 @@ LinearReport LocalElimination::factor(const LinearSystem& system, const Partitio
     for (int k = 0; k < from_local.rows(); ++k)
       for (SparseMatrix::InnerIterator entry(from_local, k); entry; ++entry) {
         if (!is_missing[entry.col()]) continue;
-        const double own = bulk[part].coeff(k, of.owned[k]);
+        const double own = diagonals[part][k];
         if (own != 0) of_schur[entry.col()] -= rows_.coeff(entry.col(), of.unknowns[of.owned[k]]) * entry.value() / own;
       }
   }
