@@ -12,6 +12,7 @@
 #include "framework/invariants.hpp"
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/gather_entries.hpp"
+#include "framework/linear/iterative/sparse_product.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -362,8 +363,7 @@ SparseMatrix LocalElimination::correction(const LinearSystem& system, const Part
   if (partition.local().unknowns.empty())
     return SparseMatrix(bulk_from_local.rows(), static_cast<int>(partition.parts[bulk].unknowns.size()));
   const SparseMatrix from_bulk = columns_of_part(rows_, all_rows(rows_), partition, bulk);
-  SparseMatrix weighted = cell_inverses_ * from_bulk;
-  SparseMatrix product = bulk_from_local * weighted;
+  SparseMatrix product = sparse_product(bulk_from_local, sparse_product(cell_inverses_, from_bulk));
   const std::vector<Triplet> answers = answers_together(from_bulk);
   if (!answers.empty()) {
     SparseMatrix together(from_bulk.rows(), from_bulk.cols());
