@@ -32,7 +32,7 @@ EXEMPT = (
     ("framework/config/describe/explain.cpp", "how a text looks"),
     ("framework/config/input_error.cpp", "how a text looks"),
     ("framework/config/unit.cpp", "units"),
-    ("framework/output/hdf5_file.cpp", "a file's format"),
+    ("framework/output/hdf5_module/hdf5_module.cpp", "a file's format"),
     ("framework/output/progress.cpp", "how a text looks"),
     ("framework/study/sample_points.cpp", "digits of numbers, and a published table (Joe and Kuo 2008)"),
     ("components/capabilities/usual_ranges.hpp", "published ranges, each with its source; outside of them a scene has a note"),

@@ -105,6 +105,7 @@ Equilibrated equilibrate(const LinearSystem& system) {
   for (int row = 0; row < a.rows(); ++row)
     for (int k = a.outerIndexPtr()[row]; k < a.outerIndexPtr()[row + 1]; ++k)
       a.valuePtr()[k] = a.valuePtr()[k] * result.row_scale[row] * result.column_scale[a.innerIndexPtr()[k]];
+  result.norm = std::sqrt(parallel::sum(Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros()).squaredNorm()));
   return result;
 }
 

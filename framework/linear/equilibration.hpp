@@ -13,6 +13,7 @@ struct Equilibrated {
   SparseMatrix matrix;  ///< this process's rows of R A C
   Vector row_scale;     ///< R, one entry for each row of this process
   Vector column_scale;  ///< C, one entry for each unknown of the whole system
+  double norm = 0;      ///< of the scaled matrix of all processes, the root of the sum of the squares of its entries
   std::string mistake;  ///< why the matrix cannot be solved: an empty row or column, or an entry that is no number
 };
 

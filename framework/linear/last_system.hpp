@@ -1,6 +1,7 @@
 // Finds out what has changed since the last system that a solver was given.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "framework/linear/linear_solver.hpp"
@@ -10,19 +11,34 @@ namespace sprekk {
 /// How much of a system is new: nothing, its values, or its sparsity pattern (and so its values).
 enum class Change { nothing, values, pattern };
 
+/// A number for LinearSystem::number by a caller who has compared the system with those before: of two systems with the
+/// same pattern number, not 0, and different numbers of this kind the values differ. Solvers then need no copy to
+/// compare the next system with.
+std::uint64_t new_telling_number();
+
+/// Whether two systems have entries at the same places on this process; and whether these have the same bits.
+bool have_same_places(const LinearSystem& a, const LinearSystem& b);
+bool have_same_bits(const LinearSystem& a, const LinearSystem& b);
+
 /// Remembers the last system, and compares the next one with it by number or bit by bit, so that a factorization that
-/// is reused has the same bits as one that is computed anew. Collective: every process gets the largest change of all.
+/// is reused has the same bits as one that is computed anew. A system with a number of new_telling_number is not
+/// copied. Collective: every process gets the largest change of all.
 class LastSystem {
  public:
   Change compare_and_remember(const LinearSystem& system);
   void forget() { remembered_ = false; }
 
  private:
+  struct Copy {
+    std::vector<int> rows, outer, inner;
+    std::vector<double> values;
+    std::vector<Vector> stabilizations;
+    bool has_pattern_of(const LinearSystem& system) const;
+    bool has_values_of(const LinearSystem& system) const;
+  };
   bool remembered_ = false;
   std::uint64_t pattern_number_ = 0, number_ = 0;
-  std::vector<int> rows_, outer_, inner_;
-  std::vector<double> values_;
-  std::vector<Vector> stabilizations_;
+  std::optional<Copy> copy_;  ///< none where numbers tell
 };
 
 }  // namespace sprekk

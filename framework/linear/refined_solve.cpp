@@ -51,7 +51,7 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
   const int unknowns = static_cast<int>(a.cols());
   const Vector b = scaled.row_scale.cwiseProduct(b_rows);
   const double b_norm = norm(b);
-  const double a_norm = norm(Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros())) / std::sqrt(unknowns);
+  const double a_norm = scaled.norm / std::sqrt(unknowns);
   if (!std::isfinite(b_norm))
     return LinearReport::failure("the right-hand side has an entry that is not a finite number");
 

@@ -1,15 +1,15 @@
 // Named arrays in an HDF5 file. Every array carries a checksum, so that a damaged file is noticed when it is read.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "framework/output/hdf5_module/hdf5_module.hpp"
 
 namespace sprekk {
 
@@ -35,13 +35,9 @@ class Hdf5Writer {
   void close();
 
  private:
-  void write(const std::string& path, std::int64_t type, std::size_t count, const void* values);
-  void make_groups_of(const std::string& path);
-  struct Image;
-  std::string_view finish();  ///< the bytes of the file
+  void write(const std::string& path, Hdf5Module::Type type, std::size_t count, const void* values);
   std::filesystem::path path_;
-  std::unique_ptr<Image> image_;
-  std::int64_t file_;
+  std::unique_ptr<Hdf5Module::Output> file_;
   std::set<std::string> groups_;  ///< that have been made
 };
 
@@ -61,8 +57,8 @@ class Hdf5Reader {
 
  private:
   template <class Value>
-  std::vector<Value> read(const std::string& path, std::int64_t type) const;
-  std::int64_t file_;
+  std::vector<Value> read(const std::string& path, Hdf5Module::Type type) const;
+  std::unique_ptr<Hdf5Module::Input> file_;
 };
 
 }  // namespace sprekk

@@ -11,7 +11,7 @@ from pathlib import Path
 
 build, cmake, cpack = sys.argv[1:4]
 problems = []
-FILES = ("bin/sprekk", "lib/sprekk/sprekk_gmsh.so", "lib/sprekk/sprekk_trilinos.so", "lib/sprekk/sprekk_vtk.so",
+FILES = ("bin/sprekk", "lib/sprekk/sprekk_gmsh.so", "lib/sprekk/sprekk_trilinos.so", "lib/sprekk/sprekk_vtk.so", "lib/sprekk/sprekk_hdf5.so",
          "share/man/man1/sprekk.1", "share/bash-completion/completions/sprekk", "share/zsh/vendor-completions/_sprekk",
          "share/sprekk/scene.schema.json", "share/sprekk/study.schema.json", "share/doc/sprekk/copyright",
          "share/doc/sprekk/examples/tutorial/first_scene.yaml", "share/doc/sprekk/examples/scene.schema.json")

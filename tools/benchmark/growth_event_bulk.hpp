@@ -42,8 +42,7 @@ inline std::unique_ptr<Bulk> bulk_of(Model& model, const StepTime& step) {
   BlockSystem whole(model.mesh(), unknowns);
   const LinearSystem& system = whole.matrix(assembly);
   BulkSplitting split(system);
-  split.bb.update(system.local.valuePtr());
-  split.bf.update(system.local.valuePtr());
+  split.update(system.local);
   auto bulk = std::make_unique<Bulk>();
   bulk->system = split.bulk_system();
   bulk->columns = Eigen::MatrixXd(split.bf.matrix)(Eigen::all, split.interface_columns);

@@ -85,6 +85,19 @@ struct MumpsSolver::Instance {
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
 
+  /// Tells MUMPS where the entries are.
+  void point_to_entries() {
+    const auto count = static_cast<MUMPS_INT8>(rows.size());
+    if (parallel::size() > 1) {
+      data.nnz_loc = count;
+      data.irn_loc = rows.data();
+      data.jcn_loc = columns.data();
+    } else {
+      data.nnz = count;
+      data.irn = rows.data();
+      data.jcn = columns.data();
+    }
+  }
   int& icntl(int number) { return data.icntl[number - 1]; }
   int status() const { return data.infog[0]; }
   void run(Job job) {
@@ -222,6 +235,10 @@ void MumpsSolver::list_entries() {
   std::vector<int>&rows = mumps_->rows, &columns = mumps_->columns;
   rows.clear();
   columns.clear();
+  auto entries = static_cast<std::size_t>(scaled_.matrix.nonZeros() + border_.columns.nonZeros());
+  if (parallel::is_root()) entries += border_.rows.nonZeros() + border_.size();
+  rows.reserve(entries);
+  columns.reserve(entries);
   const auto list = [&](const SparseMatrix& a, const auto& number_of_row, int first_column) {
     for (int row = 0; row < a.rows(); ++row)
       for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) {
@@ -270,15 +287,7 @@ LinearReport MumpsSolver::order() {
   auto& data = mumps_->data;
   SPREKK_ASSERT(mumps_->rows.size() == mumps_->columns.size(), mumps_->rows.size(), mumps_->columns.size());
   data.n = size;
-  if (parallel::size() > 1) {
-    data.nnz_loc = static_cast<int>(mumps_->rows.size());
-    data.irn_loc = mumps_->rows.data();
-    data.jcn_loc = mumps_->columns.data();
-  } else {
-    data.nnz = static_cast<int>(mumps_->rows.size());
-    data.irn = mumps_->rows.data();
-    data.jcn = mumps_->columns.data();
-  }
+  mumps_->point_to_entries();
   mumps_->icntl(19) = border_.size() > 0 ? 1 : 0;
   data.size_schur = border_.size();
   data.listvar_schur = mumps_->border.data();
@@ -299,6 +308,10 @@ LinearReport MumpsSolver::order() {
 
 LinearReport MumpsSolver::factor_values() {
   const Stopwatch watch(counts_.seconds_factor);
+  if (mumps_->rows.empty()) {
+    list_entries();
+    mumps_->point_to_entries();
+  }
   (parallel::size() > 1 ? mumps_->data.a_loc : mumps_->data.a) = list_values();
   mumps_->schur.resize(static_cast<std::size_t>(border_.size()) * border_.size());
   mumps_->data.schur = mumps_->schur.data();
@@ -315,6 +328,12 @@ LinearReport MumpsSolver::factor_values() {
     mumps_->icntl(14) *= 2;
   }
   ++counts_.factorizations;
+  // They are read by factorizations alone, and take as much memory as the values of the matrix.
+  if (mumps_->data.n > Orderings::largest_system) {
+    mumps_->rows = std::vector<int>();
+    mumps_->columns = std::vector<int>();
+    mumps_->point_to_entries();
+  }
   mumps_->has_pivots = false;
   const int status = mumps_->status();
   if (status < 0) mumps_->icntl(14) = spare;

@@ -4,6 +4,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/iterative/cycle_with_zone.hpp"
+#include "framework/linear/iterative/sparse_sum.hpp"
 #include "framework/linear/iterative/without_small_entries.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -33,11 +34,11 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
     }
   }
 
-  std::vector<SparseMatrix> bulk;
+  std::vector<Vector> diagonals;
   for (int part = 0; part < local; ++part) {
     UnknownBlock block = partition.parts[part].block;
-    SparseMatrix& a = bulk.emplace_back(sub_matrix(system.local, partition, part, part));
-    a += elimination_->correction(system, partition, part);
+    SparseMatrix a =
+        sparse_sum(sub_matrix(system.local, partition, part, part), elimination_->correction(system, partition, part));
     const std::vector<int>& owned = partition.parts[part].owned;
     const bool has_fractures = partition.parts[part].has_fractures;
     // Multi-point fluxes reach far, by entries that cost a multigrid more than they help it. With a stabilization the
@@ -49,17 +50,19 @@ BlockPreconditioner::BlockPreconditioner(const LinearSystem& system) {
       diagonal.reserve(Eigen::VectorXi::Ones(a.rows()));
       for (std::size_t k = 0; k < owned.size(); ++k)
         diagonal.insert(static_cast<int>(k), owned[k]) = block.stabilization[owned[k]];
-      a += diagonal;
+      a = sparse_sum(a, diagonal);
       // Fractures that conduct well matter more to a multigrid than what the diagonal stands for.
       if (has_fractures) block.stabilization.resize(0);
     }
+    Vector& own = diagonals.emplace_back(a.rows());
+    for (int row = 0; row < a.rows(); ++row) own[row] = a.coeff(row, owned[row]);
     std::unique_ptr<Multigrid> cycle = trilinos().multigrid(a, owned, block);
     std::vector<int> zone;
     if (block.kind == BlockKind::bulk_elastic && block.components == 3) zone = elimination_->beside(partition, part);
     cycles_.push_back(zone.empty() ? std::move(cycle)
                                    : std::make_unique<CycleWithZone>(a, owned, std::move(zone), std::move(cycle)));
   }
-  const LinearReport report = elimination_->factor(system, partition, bulk);
+  const LinearReport report = elimination_->factor(system, partition, diagonals);
   if (!report.solved) throw std::invalid_argument(report.reason);
 }
 

@@ -12,6 +12,7 @@
 #include "framework/invariants.hpp"
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/gather_entries.hpp"
+#include "framework/linear/iterative/sparse_product.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -323,7 +324,7 @@ std::vector<Triplet> LocalElimination::answers_together(const SparseMatrix& colu
 }
 
 LinearReport LocalElimination::factor(const LinearSystem& system, const Partition& partition,
-                                      const std::vector<SparseMatrix>& bulk) {
+                                      const std::vector<Vector>& diagonals) {
   const int unknowns = static_cast<int>(partition.local().unknowns.size());
   if (unknowns == 0) return LinearReport::success();
   const int local = static_cast<int>(partition.parts.size()) - 1;
@@ -337,7 +338,7 @@ LinearReport LocalElimination::factor(const LinearSystem& system, const Partitio
     for (int k = 0; k < from_local.rows(); ++k)
       for (SparseMatrix::InnerIterator entry(from_local, k); entry; ++entry) {
         if (!is_missing[entry.col()]) continue;
-        const double own = bulk[part].coeff(k, of.owned[k]);
+        const double own = diagonals[part][k];
         if (own != 0) of_schur[entry.col()] -= rows_.coeff(entry.col(), of.unknowns[of.owned[k]]) * entry.value() / own;
       }
   }
@@ -362,8 +363,7 @@ SparseMatrix LocalElimination::correction(const LinearSystem& system, const Part
   if (partition.local().unknowns.empty())
     return SparseMatrix(bulk_from_local.rows(), static_cast<int>(partition.parts[bulk].unknowns.size()));
   const SparseMatrix from_bulk = columns_of_part(rows_, all_rows(rows_), partition, bulk);
-  SparseMatrix weighted = cell_inverses_ * from_bulk;
-  SparseMatrix product = bulk_from_local * weighted;
+  SparseMatrix product = sparse_product(bulk_from_local, sparse_product(cell_inverses_, from_bulk));
   const std::vector<Triplet> answers = answers_together(from_bulk);
   if (!answers.empty()) {
     SparseMatrix together(from_bulk.rows(), from_bulk.cols());

@@ -43,9 +43,9 @@ class LocalElimination {
   /// Collective, as factor is.
   LocalElimination(const LinearSystem& system, const Partition& partition);
   /// `solved` is false if A_FF is singular. An unknown whose row has no entry in A_FF, as a rate at a point with a
-  /// given potential, has that of the Schur complement, -A_FB diag(A_BB)^-1 A_BF. `bulk`: the rows of A_BB that this
-  /// process holds, by parts.
-  LinearReport factor(const LinearSystem& system, const Partition& partition, const std::vector<SparseMatrix>& bulk);
+  /// given potential, has that of the Schur complement, -A_FB diag(A_BB)^-1 A_BF. `diagonals`: of A_BB, in the
+  /// rows that this process holds, by parts.
+  LinearReport factor(const LinearSystem& system, const Partition& partition, const std::vector<Vector>& diagonals);
   void solve(Vector& local) const {
     if (local.size() > 0) solver_.solve_unchecked(local);
   }

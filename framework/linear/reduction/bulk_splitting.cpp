@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include "framework/invariants.hpp"
@@ -87,18 +86,6 @@ double largest_by_block(const std::vector<UnknownBlock>& blocks, const std::vect
 
 }  // namespace
 
-bool take_values(SparseMatrix& matrix, const double* values, const std::vector<int>& source) {
-  SPREKK_EXPECT(static_cast<Eigen::Index>(source.size()) == matrix.nonZeros(), source.size(), matrix.nonZeros());
-  bool has_changed = false;
-  double* mine = matrix.valuePtr();
-  for (std::size_t k = 0; k < source.size(); ++k) {
-    const double value = values[source[k]];
-    has_changed |= std::memcmp(&value, &mine[k], sizeof value) != 0;
-    mine[k] = value;
-  }
-  return has_changed;
-}
-
 BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
     : outer_(system.local.outerIndexPtr(), system.local.outerIndexPtr() + system.local.rows() + 1),
       inner_(system.local.innerIndexPtr(), system.local.innerIndexPtr() + system.local.nonZeros()),
@@ -122,7 +109,7 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
   for (const UnknownBlock& block : blocks_)
     for (const bool is_local : {false, true}) {
       UnknownBlock chosen = chosen_entities(block, is_local_, is_local, place_);
-      if (chosen.entities > 0) (is_local ? local_blocks_ : bulk_blocks_).push_back(std::move(chosen));
+      if (chosen.entities > 0) (is_local ? local_blocks_ : bulk_.blocks).push_back(std::move(chosen));
     }
   rows_ = system.rows;
   for (const int row : rows_) (is_local_[row] ? local_rows : bulk_rows).push_back(place_[row]);
@@ -130,7 +117,9 @@ BulkSplitting::BulkSplitting(const LinearSystem& system, std::vector<char> held)
   whole_local_ = parallel::WholeVectors(local_rows, local);
   split_own_rows(bulk, local);
   split_rows_of_all(bulk, local);
-  SPREKK_ASSERT(is_well_formed(bb.matrix) && is_well_formed(ff.matrix), bulk, local);
+  bulk_.rows = bulk_rows;
+  bulk_.pattern_number = new_system_number();
+  SPREKK_ASSERT(is_well_formed(bb()) && is_well_formed(ff.matrix), bulk, local);
 
   std::vector<char> is_interface(local, 0);
   const int* const of_interface = bf.matrix.innerIndexPtr();
@@ -156,7 +145,9 @@ void BulkSplitting::split_own_rows(int bulk, int local) {
     if (!is_local_[rows_[row]]) mine.add(outer_[row], outer_[row + 1]);
     for (int k = outer_[row]; is_local_[rows_[row]] && k < outer_[row + 1]; ++k) of_local_rows_.push_back(k);
   }
-  bb = extract(mine, inner_, false, bulk);
+  SubMatrix bb = extract(mine, inner_, false, bulk);
+  bulk_.local.swap(bb.matrix);
+  of_bulk_ = std::move(bb.source);
   bf = extract(mine, inner_, true, local);
 }
 
@@ -189,7 +180,7 @@ SubMatrix BulkSplitting::extract(const Rows& rows, const std::vector<int>& colum
       const int column = column_of[k];
       if (static_cast<bool>(is_local_[column]) != local_columns) continue;
       columns.push_back(place_[column]);
-      sub.source.push_back(k);
+      sub.source.add(k);
     }
     starts.push_back(static_cast<int>(columns.size()));
   }
@@ -209,16 +200,34 @@ bool BulkSplitting::fits(const SparseMatrix& matrix) const {
   return !parallel::any(!fits_here);
 }
 
-bool BulkSplitting::update(const SparseMatrix& matrix) {
+bool BulkSplitting::has_other_bulk(const SparseMatrix& matrix) const {
   SPREKK_EXPECT(matrix.nonZeros() == static_cast<Eigen::Index>(inner_.size()), matrix.nonZeros(), inner_.size());
   const double* values = matrix.valuePtr();
-  const bool has_changed = bb.update(values) | bf.update(values);
+  return of_bulk_.differs(values, bulk_.local.valuePtr()) || bf.differs(values);
+}
+
+void BulkSplitting::update(const SparseMatrix& matrix, Bulk bulk) {
+  SPREKK_EXPECT(matrix.nonZeros() == static_cast<Eigen::Index>(inner_.size()), matrix.nonZeros(), inner_.size());
+  const double* values = matrix.valuePtr();
+  if (bulk == Bulk::changes) {
+    of_bulk_.take(values, bulk_.local.valuePtr());
+    bf.update(values);
+  }
   values_of_local_rows_.clear();
   for (const int k : of_local_rows_) values_of_local_rows_.push_back(values[k]);
   const std::vector<double> all = parallel::gather(values_of_local_rows_);
   fb.update(all.data());
   ff.update(all.data());
-  return parallel::any(has_changed);
+}
+
+void BulkSplitting::take_sums(const std::vector<int>& sums) {
+  if (sums == sums_) return;
+  sums_ = sums;
+  SPREKK_ASSERT(are_indices(sums_, static_cast<long>(place_.size())), place_.size());
+  bulk_.sums.clear();
+  for (const int sum : sums_)
+    if (!is_local_[sum]) bulk_.sums.push_back(place_[sum]);
+  bulk_.pattern_number = new_system_number();
 }
 
 Vector BulkSplitting::bulk_part(const Vector& rows) const {
@@ -246,14 +255,6 @@ Vector BulkSplitting::joined(const Vector& bulk, const Vector& local) const {
   return whole;
 }
 
-LinearSystem BulkSplitting::bulk_system() const {
-  SPREKK_ASSERT(are_indices(sums_, static_cast<long>(place_.size())), place_.size());
-  LinearSystem system = system_of(bulk_rows, bb.matrix, bulk_blocks_);
-  for (const int sum : sums_)
-    if (!is_local_[sum]) system.sums.push_back(place_[sum]);
-  return system;
-}
-
 LinearSystem BulkSplitting::local_system(SparseMatrix matrix) const {
   SPREKK_EXPECT(matrix.rows() == local_size() && matrix.cols() == local_size(), matrix.rows(), matrix.cols());
   std::vector<int> rows(local_size());
@@ -269,8 +270,8 @@ LinearSystem BulkSplitting::whole_system() const {
   matrix.resizeNonZeros(inner_.size());
   std::copy(outer_.begin(), outer_.end(), matrix.outerIndexPtr());
   std::copy(inner_.begin(), inner_.end(), matrix.innerIndexPtr());
-  for (const SubMatrix* sub : {&bb, &bf})
-    for (std::size_t k = 0; k < sub->source.size(); ++k) matrix.valuePtr()[sub->source[k]] = sub->matrix.valuePtr()[k];
+  of_bulk_.put_back(bulk_.local.valuePtr(), matrix.valuePtr());
+  bf.source.put_back(bf.matrix.valuePtr(), matrix.valuePtr());
   for (std::size_t k = 0; k < of_local_rows_.size(); ++k)
     matrix.valuePtr()[of_local_rows_[k]] = values_of_local_rows_[k];
   LinearSystem system = system_of(rows_, std::move(matrix), blocks_);
@@ -284,9 +285,9 @@ double BulkSplitting::backward_error(const Vector& bulk, const Vector& local, co
   const auto own_bulk = static_cast<Eigen::Index>(bulk_rows.size());
   SPREKK_EXPECT(b_bulk.size() == own_bulk && b_local.size() == local_size(), b_bulk.size(), b_local.size());
   Vector product = Vector::Zero(own_bulk), size = b_bulk.cwiseAbs();
-  multiply(bb.matrix, bulk, product, size);
+  multiply(bb(), bulk, product, size);
   multiply(bf.matrix, local, product, size);
-  const double of_bulk = largest_by_block(bulk_blocks_, bulk_rows, b_bulk - product, size);
+  const double of_bulk = largest_by_block(bulk_.blocks, bulk_rows, b_bulk - product, size);
   product = Vector::Zero(local_size());
   size = b_local.cwiseAbs();
   multiply(fb.matrix, bulk, product, size);

@@ -5,20 +5,19 @@
 #include <vector>
 
 #include "framework/linear/linear_solver.hpp"
+#include "framework/linear/reduction/excerpt.hpp"
 #include "framework/parallel/gathered.hpp"
 
 namespace sprekk {
 
-/// Fills a matrix with values of another one, each from its place in `source`. True if the bits of one have changed.
-bool take_values(SparseMatrix& matrix, const double* values, const std::vector<int>& source);
-
 /// The part of a matrix with rows of one kind and columns of one kind.
 struct SubMatrix {
   SparseMatrix matrix;
-  std::vector<int> source;  ///< of every value: its place among the values of the whole matrix
+  Excerpt source;  ///< the places of the values among those of the whole matrix
 
-  /// Takes the values over. True if the bits of one have changed.
-  bool update(const double* values) { return take_values(matrix, values, source); }
+  bool differs(const double* values) const { return source.differs(values, matrix.valuePtr()); }
+  /// Takes the values over.
+  void update(const double* values) { source.take(values, matrix.valuePtr()); }
   bool has_row(int row) const { return matrix.outerIndexPtr()[row + 1] > matrix.outerIndexPtr()[row]; }
 };
 
@@ -33,7 +32,7 @@ class BulkSplitting {
   bool fits(const SparseMatrix& matrix) const;
 
   const std::vector<char>& held() const { return held_; }
-  int bulk_size() const { return bb.matrix.cols(); }
+  int bulk_size() const { return bulk_.local.cols(); }
   int local_size() const { return ff.matrix.rows(); }
   /// Whether an unknown of F belongs to the bulk, but is held by F; whether there are some.
   bool is_held(int unknown) const { return is_held_local_[unknown]; }
@@ -45,20 +44,28 @@ class BulkSplitting {
   Vector joined(const Vector& bulk, const Vector& local) const;
   /// All of B, from this process's rows.
   Vector whole_bulk(const Vector& mine) const { return whole_bulk_.whole(mine); }
-  /// The matrices as systems of their own; that of F is whole.
-  LinearSystem bulk_system() const;
+  /// The equations of the bulk as a system of their own, with A_BB.
+  const LinearSystem& bulk_system() const { return bulk_; }
+  const SparseMatrix& bb() const { return bulk_.local; }
+  /// The number of the bulk's system: one that no other bulk has whose values differ (new_telling_number).
+  void number_bulk(std::uint64_t number) { bulk_.number = number; }
+  /// A matrix of F as a system of its own; it is whole.
   LinearSystem local_system(SparseMatrix matrix) const;
   LinearSystem whole_system() const;
-  /// Takes the values of a matrix that fits. True if the bits of one in A_BB or A_BF have changed.
-  bool update(const SparseMatrix& matrix);
+  /// Whether the bits of a value of A_BB or A_BF differ in a matrix that fits, on this process.
+  bool has_other_bulk(const SparseMatrix& matrix) const;
+  /// Whether values of the bulk may differ from those that it has.
+  enum class Bulk { changes, stays };
+  /// Takes the values of a matrix that fits; those of A_BB and A_BF only if they change on some process.
+  void update(const SparseMatrix& matrix, Bulk bulk = Bulk::changes);
   /// Which rows are sums of balances (LinearSystem::sums); belongs to the values, not to the pattern.
-  void take_sums(const std::vector<int>& sums) { sums_ = sums; }
+  void take_sums(const std::vector<int>& sums);
   /// The largest over the blocks of max |b − A x| / max (|A| |x| + |b|), with maxima over the rows of a block. Where
   /// the terms of a block are nothing but round-off of local unknowns, 1e-4 of the terms of these unknowns' own rows
   /// stand in the denominator. `b_bulk`: of this process's rows; the other vectors are whole.
   double backward_error(const Vector& bulk, const Vector& local, const Vector& b_bulk, const Vector& b_local) const;
 
-  SubMatrix bb, bf, fb, ff;
+  SubMatrix bf, fb, ff;
   std::vector<int> bulk_rows, local_rows;  ///< the unknowns of B, and of F, whose rows are this process's
   std::vector<int> interface_columns;      ///< the local unknowns that have a column in A_BF
   std::vector<int> interface_rows;         ///< the local rows that have an entry in A_FB
@@ -83,7 +90,9 @@ class BulkSplitting {
   std::vector<char> is_local_;       ///< of every unknown
   std::vector<char> is_held_local_;  ///< of every unknown of F; empty for none
   std::vector<int> place_;           ///< of every unknown: its number among those of its kind
-  std::vector<UnknownBlock> blocks_, bulk_blocks_, local_blocks_;
+  std::vector<UnknownBlock> blocks_, local_blocks_;
+  LinearSystem bulk_;
+  Excerpt of_bulk_;  ///< the places of the values of A_BB
   std::vector<int> sums_;
   parallel::WholeVectors whole_bulk_, whole_local_;
 };

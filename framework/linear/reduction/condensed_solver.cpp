@@ -6,6 +6,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/linear/expect_sound.hpp"
+#include "framework/linear/last_system.hpp"
 #include "framework/linear/reduction/bulk_schur_complement.hpp"
 #include "framework/linear/reduction/bulk_splitting.hpp"
 #include "framework/linear/reduction/floating_parts.hpp"
@@ -124,7 +125,8 @@ double cost_of_columns(const BulkSplitting& split, const LinearOptions& options)
 struct CondensedSolver::Bulk {
   explicit Bulk(const LinearOptions& options) : solver(make_linear_solver(options)) {}
   std::unique_ptr<LinearSolver> solver;
-  std::vector<double> values, columns;  ///< of A_BB and A_BF at the factorization
+  std::uint64_t number = 0;             ///< of A_BB (BulkSplitting::number_bulk)
+  std::vector<double> values, columns;  ///< of A_BB and A_BF, where another bulk has come since
   int systems = 0;                      ///< number of systems with this bulk
   bool is_tried = false;                ///< whether it has been factorized, successfully or not
   bool is_verified = false;             ///< whether the first solution was accurate
@@ -159,7 +161,9 @@ LinearReport CondensedSolver::condense(const LinearSystem& system) {
   if (!fits) split_anew(system, unknowns_held_by_fractures(system));
   bool has_changed = false;
   if (!is_same(system.number, number_)) {
-    has_changed = splitting_->update(system.local);
+    has_changed = parallel::any(splitting_->has_other_bulk(system.local));
+    if (has_changed) remember_bulk();
+    splitting_->update(system.local, has_changed ? BulkSplitting::Bulk::changes : BulkSplitting::Bulk::stays);
     if (has_changed && fits) {
       std::vector<char> held = unknowns_held_by_fractures(system);
       if (held != splitting_->held()) {
@@ -212,13 +216,22 @@ void CondensedSolver::split_anew(const LinearSystem& system, std::vector<char> h
   number_ = reduced_number_ = 0;
 }
 
+/// Keeps the values of the bulk in use, before others take their place in the splitting.
+void CondensedSolver::remember_bulk() {
+  if (bulks_.empty() || !bulks_.front().values.empty()) return;
+  bulks_.front().values = values_of(splitting_->bb());
+  bulks_.front().columns = values_of(splitting_->bf.matrix);
+}
+
+/// Takes the bulk that has the values of the splitting, or a new one, in place of the one in use, which differs.
 void CondensedSolver::choose_bulk() {
   SPREKK_ASSERT(bulks_.size() <= kept_bulks, bulks_.size());
   const auto known = std::find_if(bulks_.begin(), bulks_.end(), [this](const Bulk& bulk) {
-    return all_say(same_values(splitting_->bb.matrix, bulk.values) && same_values(splitting_->bf.matrix, bulk.columns));
+    return all_say(same_values(splitting_->bb(), bulk.values) && same_values(splitting_->bf.matrix, bulk.columns));
   });
   if (known != bulks_.end()) {
     bulks_.splice(bulks_.begin(), bulks_, known);
+    splitting_->number_bulk(known->number);
     return;
   }
   if (bulks_.size() < kept_bulks)
@@ -226,8 +239,11 @@ void CondensedSolver::choose_bulk() {
   else
     bulks_.splice(bulks_.begin(), bulks_, std::prev(bulks_.end()));  // the oldest; its ordering stays
   Bulk& bulk = bulks_.front();
-  bulk.values = values_of(splitting_->bb.matrix);
-  bulk.columns = values_of(splitting_->bf.matrix);
+  const bool has_other_columns_only = bulk.number != 0 && all_say(same_values(splitting_->bb(), bulk.values));
+  if (!has_other_columns_only) bulk.number = new_telling_number();
+  splitting_->number_bulk(bulk.number);
+  bulk.values = std::vector<double>();
+  bulk.columns = std::vector<double>();
   bulk.systems = 0;
   bulk.is_tried = false;
 }
@@ -293,7 +309,7 @@ bool CondensedSolver::verifies(const Vector& b_bulk, const Vector& b_local, cons
   const double error = split.backward_error(bulk, local, b_bulk, b_local);
   if (error <= acceptable || !std::isfinite(error)) return error <= acceptable;
   Vector more_bulk, more_local;
-  const Vector r_bulk = b_bulk - split.bb.matrix * bulk - split.bf.matrix * local;
+  const Vector r_bulk = b_bulk - split.bb() * bulk - split.bf.matrix * local;
   const Vector r_local = b_local - split.fb.matrix * bulk - split.ff.matrix * local;
   return solve_condensed(r_bulk, r_local, more_bulk, more_local).solved &&
          split.backward_error(bulk + more_bulk, local + more_local, b_bulk, b_local) <= acceptable;

@@ -42,6 +42,7 @@ class CondensedSolver final : public LinearSolver {
   struct Bulk;  ///< a factorization of A_BB, with X
   LinearReport condense(const LinearSystem& system);
   void split_anew(const LinearSystem& system, std::vector<char> held);
+  void remember_bulk();
   void choose_bulk();
   LinearReport solve_condensed(const Vector& b_bulk, const Vector& b_local, Vector& bulk, Vector& local);
   LinearReport solve_reduced(const Vector& b, Vector& x);

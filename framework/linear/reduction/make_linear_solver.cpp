@@ -28,11 +28,11 @@ class AutomaticSolver final : public LinearSolver {
       forget_system();
       return solver.factor(system);
     }
-    if (last_.compare_and_remember(system) != Change::nothing) {
-      system_ = system;
-      is_solved_directly_ = false;
-    }
-    return is_solved_directly_ ? instead_->factor(*system_) : or_directly(solver.factor(system));
+    const bool is_known =
+        system_ && ((system.number != 0 && system.number == number_) || have_same_bits(*system_, system));
+    if (parallel::any(!is_known)) keep(system);
+    number_ = system.number;
+    return is_solved_directly_ ? instead_->factor(*system_) : or_directly(solver.factor(*system_));
   }
   std::optional<LinearReport> factor_bordered(const LinearSystem& system, const SparseMatrix& columns,
                                               const SparseMatrix& rows, Eigen::MatrixXd& schur) override {
@@ -71,8 +71,17 @@ class AutomaticSolver final : public LinearSolver {
     return direct.solved ? direct : report;
   }
 
+  /// Keeps a copy of a new system. Its numbers spare the solvers copies of their own.
+  void keep(const LinearSystem& system) {
+    const bool has_same_pattern = system_ && have_same_places(*system_, system);
+    const std::uint64_t pattern = has_same_pattern ? system_->pattern_number : new_system_number();
+    system_ = system;
+    system_->pattern_number = pattern;
+    system_->number = new_telling_number();
+    is_solved_directly_ = false;
+  }
+
   void forget_system() {
-    last_.forget();
     system_.reset();
     is_solved_directly_ = false;
   }
@@ -98,8 +107,8 @@ class AutomaticSolver final : public LinearSolver {
   std::unique_ptr<LinearSolver> chosen_;
   int most_iterations_ = 0;
   // The last system that GMRES was to solve, and what solves it directly instead. GMRES tries each new system first.
-  LastSystem last_;
   std::optional<LinearSystem> system_;
+  std::uint64_t number_ = 0;  ///< that it came with
   std::unique_ptr<LinearSolver> instead_;
   bool is_solved_directly_ = false;
   mutable LinearCounts counts_of_both_;

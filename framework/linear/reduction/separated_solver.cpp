@@ -139,7 +139,7 @@ void SeparatedSolver::separate(const LinearSystem& system, Lone where) {
     for (const int row : group.unknowns) {
       for (int k = outer_[row]; k < outer_[row + 1]; ++k) {
         columns.push_back(place[inner_[k]]);
-        group.source.push_back(k);
+        group.source.add(k);
       }
       starts.push_back(static_cast<int>(columns.size()));
     }
@@ -174,7 +174,7 @@ LinearReport SeparatedSolver::factor(const LinearSystem& system) {
   number_ = system.number;
   if (is_passed_on()) return groups_[0].solver->factor(system);
   for (Group& group : groups_) {
-    if (!is_same && take_values(group.system.local, system.local.valuePtr(), group.source))
+    if (!is_same && group.source.take(system.local.valuePtr(), group.system.local.valuePtr()))
       group.system.number = new_system_number();
     group.system.sums.clear();
     for (const int sum : system.sums) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "framework/linear/linear_solver.hpp"
-#include "framework/linear/reduction/bulk_splitting.hpp"
+#include "framework/linear/reduction/excerpt.hpp"
 
 namespace sprekk {
 
@@ -28,7 +28,7 @@ class SeparatedSolver final : public LinearSolver {
  private:
   struct Group {
     std::vector<int> unknowns;  ///< ascending
-    std::vector<int> source;    ///< for every value of the group's matrix: its place among those of the whole matrix
+    Excerpt source;             ///< the places of the values of its matrix among those of the whole matrix
     LinearSystem system;
     std::unique_ptr<LinearSolver> solver;
   };

@@ -40,7 +40,7 @@ class SchurComplementOf : public testing::TestWithParam<Way> {
   /// A_FB A_BB^-1 A_BF by dense elimination, for interface rows and columns.
   Eigen::MatrixXd exact_rows() const {
     const Eigen::MatrixXd dense =
-        split.fb.matrix * Eigen::MatrixXd(split.bb.matrix).partialPivLu().solve(Eigen::MatrixXd(split.bf.matrix));
+        split.fb.matrix * Eigen::MatrixXd(split.bb()).partialPivLu().solve(Eigen::MatrixXd(split.bf.matrix));
     return dense(split.interface_rows, split.interface_columns);
   }
   const BulkSchurComplement kept{1e9}, in_pieces{0, 32};  // X has 65 columns
@@ -142,15 +142,15 @@ TEST_P(SchurComplementOf, LeavesASolverThatSolves) {
   exact.head(2 * split.bulk_size() / 3) *= 1e-4;
   exact.tail(split.bulk_size() / 3) *= 1e6;
   Vector x;
-  ASSERT_TRUE(solver->solve(split.bb.matrix * exact, x).solved);
+  ASSERT_TRUE(solver->solve(split.bb() * exact, x).solved);
   EXPECT_LT(test::block_difference(split.bulk_system(), x, exact), 1e-9);
   ASSERT_TRUE(solver->factor(split.bulk_system()).solved);
-  ASSERT_TRUE(solver->solve(split.bb.matrix * exact, x).solved);
+  ASSERT_TRUE(solver->solve(split.bb() * exact, x).solved);
   EXPECT_LT(test::block_difference(split.bulk_system(), x, exact), 1e-9);
 }
 
 TEST_P(SchurComplementOf, IsRefusedWhereTheBulkIsSingular) {
-  for (SparseMatrix::InnerIterator entry(split.bb.matrix, 7); entry; ++entry) entry.valueRef() = 0;
+  for (SparseMatrix::InnerIterator entry(split.bb(), 7); entry; ++entry) entry.valueRef() = 0;
   BulkSchurComplement schur = kept;
   const LinearReport report = schur.compute(split, *solver, GetParam().is_short_lived);
   EXPECT_FALSE(report.solved);

@@ -118,6 +118,27 @@ TEST_P(Condensed, KeepsTheBulksOfTwoTimeStepsAndRepeatsItsBits) {
   EXPECT_EQ(solver.counts().factorizations, 2);
 }
 
+// Time steps of three sizes in turn, one of them next to another: bulks come back, are remembered or have been
+// forgotten.
+TEST_P(Condensed, AnswersAlikeWhicheverBulksCameBefore) {
+  std::vector<LinearSystem> systems;
+  for (const double factor : {1.0, 0.01, 1.0, 1 + 1e-9, 0.01, 1.0, 1.0}) {
+    test::FracturedBiot other = biot;
+    other.time_step *= factor;
+    systems.push_back(other.build());
+  }
+  const Vector b = systems[0].local * some_state();
+  for (const LinearSystem& system : systems) {
+    LinearOptions options;
+    options.type = GetParam();
+    CondensedSolver fresh(options);
+    Vector alone;
+    ASSERT_TRUE(fresh.factor(system).solved && fresh.solve(b, alone).solved);
+    EXPECT_EQ(solve(system, b), alone);
+  }
+  EXPECT_EQ(solver.counts().factorizations, 5);  // of two bulks that are kept, the older one makes room
+}
+
 // The Laplacian of a block that nothing holds but one spring to a local unknown.
 TEST_P(Condensed, KeepsACellOfABulkThatFloats) {
   constexpr int n = 9;

@@ -89,7 +89,7 @@ TEST(SchurComplementOfAll, IsThatOfADenseElimination) {
     const parallel::Alone by_myself;
     BulkSplitting dense(whole);
     dense.update(whole.local);
-    exact = dense.fb.matrix * Eigen::MatrixXd(dense.bb.matrix).partialPivLu().solve(Eigen::MatrixXd(dense.bf.matrix));
+    exact = dense.fb.matrix * Eigen::MatrixXd(dense.bb()).partialPivLu().solve(Eigen::MatrixXd(dense.bf.matrix));
   }
   for (const bool is_short_lived : {false, true}) {
     const auto solver = make_linear_solver(options(false));
@@ -114,10 +114,10 @@ TEST(BulkOfAll, IsHeldOnce) {
   {
     const parallel::Alone by_myself;
     const BulkSplitting alone(whole);
-    bulk = bytes_of(alone.bb.matrix) + bytes_of(alone.bf.matrix);
+    bulk = bytes_of(alone.bb()) + bytes_of(alone.bf.matrix);
     fractures = bytes_of(alone.fb.matrix) + bytes_of(alone.ff.matrix);
   }
-  const double here = bytes_of(split.bb.matrix) + bytes_of(split.bf.matrix);
+  const double here = bytes_of(split.bb()) + bytes_of(split.bf.matrix);
   EXPECT_EQ(parallel::sum(here), bulk);
   EXPECT_LE(parallel::max(here), 1.3 * bulk / parallel::size());  // strips of unlike numbers of nodes
   EXPECT_EQ(bytes_of(split.fb.matrix) + bytes_of(split.ff.matrix), fractures);
