@@ -10,6 +10,7 @@ import unittest
 import numpy as np
 
 import biot_in_space_test as biot
+import circular_fault_test as fault
 import contact_in_space_test as contact
 import extruded_scenes_test as extruded
 import rock_fractures_in_space_test as fractures
@@ -182,6 +183,23 @@ class MpsaInSpace(SceneRuns):
             self.assertLess(fine, 2**-0.5 * coarse)  # an order of a half at least
         self.assertLess(errors[1][0], 0.08)
         self.assertLess(errors[1][1], 0.13)
+
+    def test_a_circular_fault_slips_somewhat_too_far(self):
+        """For the same reason; against Eshelby's slip and moment."""
+        strike, dip, drop = 30, 40, 3e6 - 5e6 * fault.FRICTION
+        largest = 8 * (1 - fault.POISSON) * drop / (np.pi * fault.SHEAR * (2 - fault.POISSON))
+        errors = []
+        for size in (1 / 2, 1 / 4):
+            distance, sizes, slip = fault.CircularFault.slip_of(self, with_mpsa(fault.scene("first", size, strike, dip, fault.sheared(strike, dip, 70))))
+            found = np.linalg.norm(slip, axis=1)
+            inner = distance < 0.5
+            exact = largest * np.sqrt(1 - np.minimum(distance, 1)**2)
+            errors.append((np.mean(found[inner] / exact[inner]) - 1, sizes @ found / (largest * 2 * np.pi / 3) - 1))
+        print("circular fault, slip and moment:", *errors)
+        for coarse, fine in zip(*errors):
+            self.assertGreater(fine, 0)
+            self.assertLess(fine, 2**-0.5 * coarse)
+        self.assertLess(errors[1][0], 0.18)
 
     places_in_plane = extruded.ExtrudedScenes.places_in_plane
 

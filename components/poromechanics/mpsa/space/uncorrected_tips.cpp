@@ -16,8 +16,8 @@ void note_uncorrected_tips(Notes& notes, const std::string& name, const Mesh& me
   if (count == 0) return;
   notes.add(name + ": rims without their singular field",
             fmt::format("displacements in '{}' are taken to be linear around the rims of fractures, the first node of "
-                        "which is at {}: the opening of a disc is overestimated by about 7 and 4 % with 4 and 8 "
-                        "cells on its radius, its volume by 12 and 7 %. Use a smaller mesh.fracture_size, or "
+                        "which is at {}: a disc with 4 or 8 cells on its radius opens about 7 or 4 % too far, and "
+                        "slips 16 or 6 % too far. Use a smaller mesh.fracture_size, or "
                         "poromechanics/fem with 'order: second'",
                         name, to_text(mesh.nodes[first])),
             count);
