@@ -114,11 +114,11 @@ EXEMPT_ONES = (
     ("components/fracture_flow/tpfa/mean_along.hpp", "count", "a quadrature"),
     ("components/matrix_flow/rt0/flux_mass.cpp", "of_corners", "a place in the unit square"),
     ("components/matrix_flow/rt0/flux_mass.cpp", "of_gauss", "points of a quadrature"),
-    ("components/poromechanics/mpsa/tip_field.cpp", "1.5", "the power of a term of the field at a tip"),
-    ("components/poromechanics/mpsa/tip_field.cpp", "linear_terms", "a count"),
-    ("components/poromechanics/mpsa/tip_field.cpp", "place", "points of a quadrature"),
-    ("components/poromechanics/mpsa/tip_field.cpp", "weight", "its weights"),
-    ("components/poromechanics/mpsa/tip_field.hpp", "terms", "a count"),
+    ("components/poromechanics/mpsa/plane/tip_field.cpp", "1.5", "the power of a term of the field at a tip"),
+    ("components/poromechanics/mpsa/plane/tip_field.cpp", "linear_terms", "a count"),
+    ("components/poromechanics/mpsa/plane/tip_field.cpp", "place", "points of a quadrature"),
+    ("components/poromechanics/mpsa/plane/tip_field.cpp", "weight", "its weights"),
+    ("components/poromechanics/mpsa/plane/tip_field.hpp", "terms", "a count"),
 )
 
 # Comments and texts; apostrophes within numbers are no texts.

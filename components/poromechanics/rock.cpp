@@ -15,7 +15,7 @@ Rock::Rock(const ComponentContext& context, const Options& options, const Stress
       mesh_, {.owner = context.name,
               .name = "wall_remainder",
               .location = Location::fracture_cell,
-              .components = 2,
+              .components = dimension,
               .role = Role::derived(),
               .unit = "Pa",
               .doc = "Difference that a change of the mesh makes to the traction on the plus wall, at the same jumps"});

@@ -37,7 +37,8 @@ class Rock : public LoadedRock, public FollowsMesh {
   Vector outer_displacement() const override;
   Vector mean_stress() const override;
 
-  /// The total force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m, x and y); for tests and output.
+  /// The total force on every face, sigma·n integrated, n out of face_cells[f][0] (N/m; N in space); for tests and
+  /// output.
   Vector face_forces() const;
 
  protected:
@@ -65,7 +66,7 @@ class Rock : public LoadedRock, public FollowsMesh {
   Vector settled_displacements() const;
   void map_walls();
   void apply_boundary();
-  /// Wall tractions with their remainder, Pa, (normal, tangential) of each fracture cell.
+  /// Wall tractions with their remainder, Pa, normal and tangential, of each fracture cell.
   Vector wall_load() const { return wall_traction_->now() + wall_remainder_->now(); }
   /// Pa, of the initial stress of the cell on a side (0 or 1) of a face, on the normal of the face; where rock is taken
   /// away, the part that still acts.
@@ -85,8 +86,8 @@ class Rock : public LoadedRock, public FollowsMesh {
   long discretized_cells_ = 0, discretized_regions_ = 0;
   std::vector<FaceConditions> conditions_;
   StressOperators operators_;
-  SparseMatrix wall_forces_;        ///< 2 faces × 2 fracture cells: boundary values that wall tractions make
-  SparseMatrix wall_jump_;          ///< 2 fracture cells × 2 faces: the jump of face displacements, in (n, t)
+  SparseMatrix wall_forces_;        ///< boundary values that wall tractions make, of faces by fracture cells
+  SparseMatrix wall_jump_;          ///< the jump of face displacements, along normal and tangents of fracture cells
   Operator force_of_displacement_;  ///< momentum rows
   Operator force_of_wall_traction_;
   Vector carried_traction_;      ///< Pa, of the state that is being settled on other cells; otherwise empty

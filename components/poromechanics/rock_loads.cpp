@@ -94,7 +94,8 @@ void Rock::apply_boundary() {
   loads_applied_ = true;
   SPREKK_ASSERT(is_finite(boundary_values_) && is_finite(initial_forces_) && is_finite(body_forces_));
   SPREKK_ASSERT(boundary_values_.size() == dimension * mesh_.face_count(), boundary_values_.size());
-  force_constant_ = -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), 2);
+  force_constant_ =
+      -cell_sums(mesh_, Vector(operators_.force_boundary * boundary_values_ + initial_forces_), dimension);
   force_constant_ -= body_forces_;
   if (wall_remainder_) force_constant_ += force_of_wall_traction_.entries() * wall_remainder_->now();
   pinned_.give(pinned_displacements_, force_constant_);

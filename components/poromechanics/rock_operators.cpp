@@ -33,15 +33,16 @@ void Rock::map_walls() {
   std::vector<Triplet> forces, jumps;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
-    const Point axes[2] = {cell.normal, cell.tangents};
+    Tensor axes;  // the normal and the tangents, in columns
+    axes << cell.normal, cell.tangents;
     const bool owned = is_owned(mesh_, Location::fracture_cell, i);
     for (int side = 0; side < 2; ++side)
       for (int axis = 0; axis < dimension; ++axis)
         for (int k = 0; k < dimension; ++k) {
           const double sign = side == 0 ? 1.0 : -1.0;
           const int row = dimension * cell.faces[side] + k, column = dimension * i + axis;
-          forces.emplace_back(row, column, sign * cell.measure * axes[axis][k]);
-          if (owned) jumps.emplace_back(column, row, -sign * axes[axis][k]);
+          forces.emplace_back(row, column, sign * cell.measure * axes(k, axis));
+          if (owned) jumps.emplace_back(column, row, -sign * axes(k, axis));
         }
   }
   wall_forces_.resize(dimension * mesh_.face_count(), dimension * mesh_.fracture_cell_count());
@@ -54,10 +55,10 @@ void Rock::find_conditions() {
   conditions_.assign(mesh_.face_count(), {});
   for (int f = 0; f < mesh_.face_count(); ++f) {
     if (mesh_.face_cells[f][1] != none) {
-      if (may_have_initial_load(f)) conditions_[f] = {MechanicalCondition::load, MechanicalCondition::load};
+      if (may_have_initial_load(f)) conditions_[f].along.fill(MechanicalCondition::load);
       continue;
     }
-    conditions_[f] = {MechanicalCondition::traction, MechanicalCondition::traction};
+    conditions_[f].along.fill(MechanicalCondition::traction);
     const SideCondition* condition = condition_of(options_, mesh_, f);
     if (!condition) continue;
     conditions_[f].axes = condition->axes();

@@ -1,4 +1,8 @@
 // Forces, stress and displacements of sides that follow from the state of the rock.
+#include <Eigen/LU>
+#include <limits>
+#include <vector>
+
 #include "components/poromechanics/notes.hpp"
 #include "components/poromechanics/principal_stress.hpp"
 #include "components/poromechanics/rock.hpp"
@@ -26,19 +30,47 @@ Vector Rock::outer_displacement() const {
   return displacement;
 }
 
+namespace {
+
+/// The arms of the faces of a cell over its volume, so that sum of (area vector) ⊗ arm is the unit tensor: in space
+/// also where faces are bent, whose centres alone do not give it.
+std::vector<Point> arms_over_volume(const Mesh& mesh, int cell) {
+  std::vector<Point> arms;
+  for (const int face : mesh.cell_faces[cell]) arms.emplace_back(mesh.face_center[face] - mesh.cell_center[cell]);
+  if constexpr (dimension == 2) {
+    for (Point& arm : arms) arm /= mesh.cell_measure[cell];
+  } else {
+    Tensor sum = Tensor::Zero();
+    for (std::size_t k = 0; const int face : mesh.cell_faces[cell])
+      sum += (mesh.face_cells[face][0] == cell ? 1 : -1) * mesh.face_measure[face] * mesh.face_normal[face] *
+             arms[k++].transpose();
+    const Tensor inverse = sum.inverse();
+    for (Point& arm : arms) arm = inverse.transpose() * arm;
+  }
+  return arms;
+}
+
+}  // namespace
+
 Vector Rock::stress_of(const Vector& forces, const Vector& moments) const {
   // The stress of a cell from the forces on its faces: V sigma = sum of force ⊗ (x_face − x_cell), exact when constant,
   // and near tips of cracks with the moments of the singular tractions about the centres of the faces.
-  Vector stress = Vector::Zero(3 * mesh_.cell_count());
-  for (int c = 0; c < mesh_.cell_count(); ++c)
-    for (const int face : mesh_.cell_faces[c]) {
+  Vector stress = Vector::Zero(symmetric_components * mesh_.cell_count());
+  for (int c = 0; c < mesh_.cell_count(); ++c) {
+    const std::vector<Point> arms = arms_over_volume(mesh_, c);
+    for (std::size_t at = 0; const int face : mesh_.cell_faces[c]) {
       const double sign = mesh_.face_cells[face][0] == c ? 1 : -1;
       const Point force = sign * forces.segment<dimension>(dimension * face);
-      const Point arm = (mesh_.face_center[face] - mesh_.cell_center[c]) / mesh_.cell_measure[c];
-      stress.segment<3>(3 * c) +=
-          Eigen::Vector3d(force[0] * arm[0], force[1] * arm[1], 0.5 * (force[0] * arm[1] + force[1] * arm[0])) +
-          sign / mesh_.cell_measure[c] * moments.segment<3>(3 * face);
+      const Point& arm = arms[at++];
+      SymmetricTensor of_force;
+      for (int k = 0; k < symmetric_components; ++k) {
+        const auto [i, j] = symmetric_axes[k];
+        of_force[k] = i == j ? force[i] * arm[i] : 0.5 * (force[i] * arm[j] + force[j] * arm[i]);
+      }
+      stress.segment<symmetric_components>(symmetric_components * c) +=
+          of_force + sign / mesh_.cell_measure[c] * moments.segment<symmetric_components>(symmetric_components * face);
     }
+  }
   return stress;
 }
 
@@ -47,11 +79,13 @@ Vector Rock::mean_stress() const {
     return stress_without_displacement(mesh_, options_, pore_stress());
   Vector stress = stress_of(face_forces(), operators_.moment_displacement * displacement_.now());
   if (settled_) {
-    const Vector of_moments = settled_->stress - stress_of(settled_->forces, Vector::Zero(3 * mesh_.face_count()));
+    const Vector of_moments =
+        settled_->stress - stress_of(settled_->forces, Vector::Zero(symmetric_components * mesh_.face_count()));
     for (int c = 0; c < mesh_.cell_count(); ++c)
-      stress.segment<3>(3 * c) += stiffness_.excavation().support(c) * of_moments.segment<3>(3 * c);
+      stress.segment<symmetric_components>(symmetric_components * c) +=
+          stiffness_.excavation().support(c) * of_moments.segment<symmetric_components>(symmetric_components * c);
   }
-  exchange(mesh_, Location::cell, 3, stress);
+  exchange(mesh_, Location::cell, symmetric_components, stress);
   return stress;
 }
 

@@ -96,7 +96,7 @@ TEST(Schema, IsJsonWithAllSectionsAndTypes) {
       types.insert(coupler["properties"]["type"]["const"]);
     EXPECT_TRUE(types.count("matrix_flow/tpfa") && types.count("wall_exchange")) << where;
     EXPECT_EQ(types.count("fracture_flow/mfd"), where == "then" ? 1u : 0u);
-    EXPECT_EQ(types.count("poromechanics/mpsa"), where == "then" ? 0u : 1u);
+    EXPECT_EQ(types.count("matrix_flow/ntpfa"), where == "then" ? 0u : 1u);
   }
 }
 

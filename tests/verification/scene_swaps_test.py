@@ -31,7 +31,6 @@ def in_space(text):
 
 # Swaps without a meaning: for each type, pieces of reasons, and in which scenes.
 REFUSED = {
-    "poromechanics/mpsa": [("for scenes in space yet", in_space)],
     "fine_fracture/jump_fit": [("does not grow", lambda text: "grow: tips" in text)],
     "matrix_flow/rt0": [("unknowns on faces", uses_peaceman)],
     "matrix_flow/ntpfa": [("not linear in the pressures", uses_peaceman), ("for scenes in space yet", in_space)],

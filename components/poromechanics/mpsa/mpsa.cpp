@@ -1,23 +1,21 @@
 #include "components/poromechanics/mpsa/mpsa.hpp"
 
 #include <algorithm>
-#include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "components/poromechanics/mpsa/local_stresses.hpp"
-#include "components/poromechanics/mpsa/tip_correction.hpp"
+#include "components/poromechanics/mpsa/tips.hpp"
 #include "framework/discretization/interaction_region.hpp"
 #include "framework/discretization/node_stencil.hpp"
-#include "framework/discretization/plane/end_zones.hpp"
 
 namespace sprekk::poromechanics {
 
 namespace {
 
 bool has_load(const FaceConditions& conditions) {
-  return conditions[0] == MechanicalCondition::load || conditions[1] == MechanicalCondition::load;
+  return std::ranges::count(conditions.along, MechanicalCondition::load) > 0;
 }
 
 void check_arguments(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
@@ -25,12 +23,12 @@ void check_arguments(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
   if (static_cast<int>(stiffness.size()) != mesh.cell_count())
     throw std::invalid_argument("MPSA: one stiffness a cell is needed");
   if (static_cast<int>(conditions.size()) != mesh.face_count())
-    throw std::invalid_argument("MPSA: one pair of conditions a face is needed");
+    throw std::invalid_argument("MPSA: one condition for each direction of a face is needed");
   if (!nodes.empty() && static_cast<int>(nodes.size()) != mesh.node_count())
     throw std::invalid_argument("MPSA: one flag a node is needed, or none at all");
   for (int face = 0; face < mesh.face_count(); ++face) {
     const bool is_loaded = has_load(conditions[face]);
-    if (is_loaded && conditions[face][0] != conditions[face][1])
+    if (is_loaded && std::ranges::count(conditions[face].along, MechanicalCondition::load) < dimension)
       throw std::invalid_argument("MPSA: face " + std::to_string(face) + " is loaded in one direction only");
     for (const MechanicalCondition condition : conditions[face].along)
       if ((condition == MechanicalCondition::none || is_loaded) != (mesh.face_cells[face][1] != none))
@@ -64,9 +62,9 @@ struct Coefficients {
                int components)
       : cells(row_nodes, node_cells),
         valued(row_nodes, valued_faces),
-        displacement(cells, components, mesh.cell_count(), 2),
+        displacement(cells, components, mesh.cell_count(), dimension),
         stress(cells, components, mesh.cell_count(), 1),
-        boundary(valued, components, mesh.face_count(), 2) {}
+        boundary(valued, components, mesh.face_count(), dimension) {}
 
   void find_slots(int entity, int node) {
     cells.find_slots(entity, node, cell_slots_);
@@ -86,32 +84,6 @@ struct Coefficients {
   std::vector<int> cell_slots_, valued_slots_;
 };
 
-/// The fields of all tips, for the nodes near them.
-class TipFields {
- public:
-  TipFields(const Mesh& mesh, const std::vector<Stiffness>& stiffness, const EndZones& zones, const MpsaLimits& limits)
-      : mesh_(mesh), stiffness_(stiffness), zones_(zones), limits_(limits) {}
-
-  /// Null where there is none, or the rock is not like the tip's.
-  const TipField* at(int node) {
-    const int tip = zones_.end[node];
-    if (tip == none) return nullptr;
-    const auto [found, is_new] = fields_.try_emplace(tip);
-    if (is_new) found->second = TipField::find(mesh_, tip, zones_.cells.at(tip), stiffness_, limits_);
-    if (!found->second) return nullptr;
-    for (const int cell : mesh_.node_cells[node])
-      if (!resembles(stiffness_[cell], found->second->rock(), limits_.alike)) return nullptr;
-    return &*found->second;
-  }
-
- private:
-  const Mesh& mesh_;
-  const std::vector<Stiffness>& stiffness_;
-  const EndZones& zones_;
-  MpsaLimits limits_;
-  std::map<int, std::optional<TipField>> fields_;
-};
-
 }  // namespace
 
 StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& stiffness,
@@ -120,51 +92,41 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
   check_arguments(mesh, stiffness, conditions, nodes);
   const auto is_wanted = [&](int node) { return nodes.empty() || nodes[node]; };
   const auto any = [&](int, int node) { return is_wanted(node); };
-  const EndZones zones = end_zones(mesh, limits.zones);
-  const Adjacency node_cells = local_cells(mesh, zones), valued_faces = faces_with_values(mesh, conditions);
-  Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, valued_faces, 2);
+  Tips tips(mesh, limits);
+  const Adjacency node_cells = local_cells(mesh, tips), valued_faces = faces_with_values(mesh, conditions);
+  Coefficients force(mesh, contributing_nodes(mesh.face_nodes, any), node_cells, valued_faces, dimension);
   Coefficients volume(mesh, contributing_nodes(mesh.cell_nodes, any), node_cells, valued_faces, 1);
   Coefficients trace(
       mesh,
       contributing_nodes(mesh.face_nodes,
                          [&](int face, int node) { return mesh.face_cells[face][1] == none && is_wanted(node); }),
-      node_cells, valued_faces, 2);
+      node_cells, valued_faces, dimension);
 
   InteractionRegion region;
   LocalStresses local(limits);
-  TipFields fields(mesh, stiffness, zones, limits);
   std::vector<Triplet> moments;
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (!is_wanted(node)) continue;
     region.assign(mesh, node);
     local.solve(mesh, region, node_cells[node], stiffness, conditions);
-    if (const TipField* tip = fields.at(node)) {
-      const TipCorrection correction(*tip, zones.weight[node], mesh, region, node, node_cells[node], stiffness);
-      local.correct(region, correction);
-      // The moments of both halves about the centre of a face belong together: one alone is mostly that of its middle.
-      for (int f = 0; f < region.subface_count(); ++f) {
-        const auto& ends = mesh.face_nodes[region.faces[f]];
-        if (region.is_inner(f) && fields.at(ends[ends[0] == node ? 1 : 0]) == tip)
-          correction.add_moment(moments, f, std::min(zones.weight[ends[0]], zones.weight[ends[1]]));
-      }
-    }
+    tips.correct(node, region, node_cells[node], stiffness, local, moments);
     int valued_index = 0;
     for (int f = 0; f < region.subface_count(); ++f) {
       const int face = region.faces[f];
       force.find_slots(face, node);
-      for (int c = 0; c < 2; ++c) {
+      for (int c = 0; c < dimension; ++c) {
         // Prescribed values hold to the last digit, without the round-off of the local problem; along other axes the
         // local problem has them already.
         if (conditions[face][c] == MechanicalCondition::traction && conditions[face].axes == ConditionAxes::of_space &&
             !conditions[face].has_spring())
-          force.add_boundary(face, c, valued_index, 0.5);
+          force.add_boundary(face, c, valued_index, region.shares[f]);
         else
           force.add(face, c, local.force(f, c), local, 1);
       }
       if (conditions[face][0] != MechanicalCondition::none) ++valued_index;
       if (region.is_inner(f)) continue;
       trace.find_slots(face, node);
-      for (int c = 0; c < 2; ++c) trace.add(face, c, local.displacement(f, c), local, 0.5);
+      for (int c = 0; c < dimension; ++c) trace.add(face, c, local.displacement(f, c), local, region.shares[f]);
     }
     for (int k = 0; k < region.subcell_count(); ++k) {
       const int cell = region.subcells[k].cell;
@@ -172,7 +134,7 @@ StressOperators discretize_mpsa(const Mesh& mesh, const std::vector<Stiffness>& 
       volume.add(cell, 0, local.volume_change(k), local, 1);
     }
   }
-  SparseMatrix moment(3 * mesh.face_count(), 2 * mesh.cell_count());
+  SparseMatrix moment(symmetric_components * mesh.face_count(), dimension * mesh.cell_count());
   moment.setFromTriplets(moments.begin(), moments.end());
   return {force.displacement.take(), force.stress.take(),   force.boundary.take(),      trace.displacement.take(),
           trace.stress.take(),       trace.boundary.take(), volume.displacement.take(), volume.stress.take(),

@@ -1,4 +1,4 @@
-// The multi-point stress approximation with weakly held rotations on triangles and convex quadrilaterals, with the
+// The multi-point stress approximation with weakly held rotations, in a plane and in space, with the
 // Biot terms and the pressure stabilization that come from the same local problems.
 #pragma once
 

@@ -2,32 +2,28 @@
 
 #include <cstring>
 
-#include "components/poromechanics/mpsa/local_stresses.hpp"
 #include "components/poromechanics/mpsa/mpsa.hpp"
+#include "components/poromechanics/mpsa/tips.hpp"
 #include "framework/discretization/kept_regions.hpp"
-#include "framework/discretization/plane/end_zones.hpp"
 
 namespace sprekk::poromechanics {
 
 Rediscretized rediscretize_mpsa(const StressInputs& before, const StressOperators& operators, const StressInputs& after,
                                 const MeshChange& change) {
-  const EndZones zones_before = end_zones(before.mesh), zones_after = end_zones(after.mesh);
-  const Adjacency cells_before = local_cells(before.mesh, zones_before),
-                  cells_after = local_cells(after.mesh, zones_after);
-  const auto has_same_zone = [&](int node, int was) {
-    const int tip = zones_after.end[node], old_tip = zones_before.end[was];
-    if (tip == none || old_tip == none) return tip == old_tip;
-    return zones_after.weight[node] == zones_before.weight[was] && after.mesh.nodes[tip] == before.mesh.nodes[old_tip];
-  };
+  const Tips tips_before(before.mesh), tips_after(after.mesh);
+  const Adjacency cells_before = local_cells(before.mesh, tips_before),
+                  cells_after = local_cells(after.mesh, tips_after);
   const KeptRegions kept(
       {before.mesh, cells_before}, {after.mesh, cells_after}, change,
       [&](int cell, int was) {
         return std::memcmp(after.stiffness[cell].data(), before.stiffness[was].data(), sizeof(Stiffness)) == 0;
       },
       [&](int face, int was) {
-        const auto &nodes = after.mesh.face_nodes[face], &old_nodes = before.mesh.face_nodes[was];
-        return after.conditions[face] == before.conditions[was] && has_same_zone(nodes[0], old_nodes[0]) &&
-               has_same_zone(nodes[1], old_nodes[1]);
+        const FaceNodes &nodes = after.mesh.face_nodes[face], &old_nodes = before.mesh.face_nodes[was];
+        bool is_same = after.conditions[face] == before.conditions[was];
+        for (int k = 0; is_same && k < static_cast<int>(nodes.size()); ++k)
+          is_same = tips_after.has_same_zone(nodes[k], tips_before, old_nodes[k]);
+        return is_same;
       });
   StressOperators result = discretize_mpsa(after.mesh, after.stiffness, after.conditions, kept.nodes_to_compute());
   const auto take_kept = [&](SparseMatrix StressOperators::*matrix, KeptRegions::Entity rows,

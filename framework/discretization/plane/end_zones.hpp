@@ -5,19 +5,10 @@
 #include <map>
 #include <vector>
 
-#include "framework/discretization/ends_nearby.hpp"
+#include "framework/discretization/zone_limits.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk {
-
-/// How far zones reach. Only tests take other values, to see how much answers depend on them.
-struct ZoneLimits {
-  EndLimits near = {};
-  double half_width = 8;       ///< of a zone along the fracture, in lengths of the cell at the end
-  double fading_part = 0.1;    ///< of the way, where the correction fades out
-  double joining_part = 0.01;  ///< the same where the zone of the fracture's other end follows
-  double off_line = 3e-3;      ///< how far a fracture may leave the line of its end, of the distance from it
-};
 
 /// For every node an end (a node, see ends_nearby) or none, and how much of its field counts there: 1 near the end, and
 /// less from there on, smoothly down to 0. A field that ended abruptly would leave an error at its end which does not

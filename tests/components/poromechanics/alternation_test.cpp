@@ -190,7 +190,7 @@ TEST(Alternation, ExchangedVolumesAreSymmetricAndBounded) {
           if (!region.is_inner(f)) continue;
           const auto [first, second] = region.neighbours[f];
           const Subcell& one = region.subcells[first];
-          dilation[f] = poromechanics::Kink(one.half_face[region.place(f, first)], rock[one.cell],
+          dilation[f] = poromechanics::Kink(one.half_face[region.place(f, first)], region.shares[f], rock[one.cell],
                                             rock[region.subcells[second].cell])
                             .dilation();
         }

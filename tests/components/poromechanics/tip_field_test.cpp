@@ -1,5 +1,5 @@
 // Forces at the tip of a crack, against the singular fields by Muskhelishvili's potentials.
-#include "components/poromechanics/mpsa/tip_field.hpp"
+#include "components/poromechanics/mpsa/plane/tip_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "components/poromechanics/mpsa/tip_field.hpp"
+#include "components/poromechanics/mpsa/plane/tip_field.hpp"
 
 #include <algorithm>
 #include <cmath>

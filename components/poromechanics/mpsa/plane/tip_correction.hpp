@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "components/poromechanics/mpsa/tip_field.hpp"
+#include "components/poromechanics/mpsa/plane/tip_field.hpp"
 #include "framework/discretization/interaction_region.hpp"
 
 namespace sprekk::poromechanics {

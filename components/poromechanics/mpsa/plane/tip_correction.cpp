@@ -1,4 +1,4 @@
-#include "components/poromechanics/mpsa/tip_correction.hpp"
+#include "components/poromechanics/mpsa/plane/tip_correction.hpp"
 
 #include <algorithm>
 

@@ -71,9 +71,22 @@ Eigen::MatrixXd determine(const Eigen::Matrix4d& known, const Eigen::MatrixXd& v
 
 }  // namespace
 
-void LocalStresses::solve_single(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
-                                 const std::vector<Stiffness>& stiffness,
-                                 const std::vector<FaceConditions>& conditions) {
+/// Those across the faces that do not touch the node: one at most of a triangle, two of a quadrilateral.
+std::vector<int> cells_and_beyond(const Mesh& mesh, int node, const MpsaLimits&) {
+  const auto at_node = mesh.node_cells[node];
+  std::vector<int> cells(at_node.begin(), at_node.end());
+  if (at_node.size() > few_subcells) return cells;
+  for (const int face : mesh.cell_faces[at_node[0]]) {
+    if (mesh.face_nodes[face][0] == node || mesh.face_nodes[face][1] == node) continue;
+    const int across = mesh.face_cells[face][mesh.face_cells[face][0] == at_node[0] ? 1 : 0];
+    if (across != none) cells.push_back(across);
+  }
+  std::ranges::sort(cells);
+  return cells;
+}
+
+void LocalStresses::solve_few(const Mesh& mesh, const InteractionRegion& region, std::span<const int> cells,
+                              const std::vector<Stiffness>& stiffness, const std::vector<FaceConditions>& conditions) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Subcell& subcell = region.subcells[0];
   const Stiffness& rock = stiffness[subcell.cell];

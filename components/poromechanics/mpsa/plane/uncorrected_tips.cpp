@@ -1,10 +1,14 @@
 #include "components/poromechanics/mpsa/uncorrected_tips.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
-#include "components/poromechanics/mpsa/tip_field.hpp"
+#include "components/poromechanics/mpsa/plane/tip_field.hpp"
 #include "framework/discretization/nodes_around_end.hpp"
 #include "framework/discretization/plane/end_zones.hpp"
+#include "framework/discretization/uncorrected_ends.hpp"
+#include "framework/mesh/geometry.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
@@ -31,10 +35,19 @@ std::string why_uncorrected(const Mesh& mesh, int tip, const std::vector<int>& c
 
 }  // namespace
 
-UncorrectedEnds uncorrected_tips(const Mesh& mesh, const std::vector<Stiffness>& stiffness) {
-  return uncorrected_ends(mesh, end_zones(mesh).cells, [&](int tip, const std::vector<int>& cells) {
-    return why_uncorrected(mesh, tip, cells, stiffness);
-  });
+void note_uncorrected_tips(Notes& notes, const std::string& name, const Mesh& mesh,
+                           const std::vector<Stiffness>& stiffness) {
+  const UncorrectedEnds found = uncorrected_ends(
+      mesh, end_zones(mesh).cells,
+      [&](int tip, const std::vector<int>& cells) { return why_uncorrected(mesh, tip, cells, stiffness); });
+  if (found.uncorrected == 0) return;
+  notes.add(
+      name + ": tips without their singular field",
+      fmt::format("the correction of displacements around {} of {} tips of fractures in '{}' is switched off, the "
+                  "first at {} ({}): slip and opening are overestimated by about 11, 6.5 and 2.7 % with 10, 20 "
+                  "and 40 cells on the fracture. Use a smaller mesh.fracture_size",
+                  found.uncorrected, found.ends, name, to_text(found.first), found.reason),
+      found.uncorrected);
 }
 
 }  // namespace sprekk::poromechanics
