@@ -10,6 +10,7 @@
 #include "framework/config/unknown_key.hpp"
 #include "framework/formula/jumps.hpp"
 #include "framework/formula/parser.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -188,8 +189,7 @@ struct Resized {
   /// Whether its values change as those of a quantity with this dimension, with places and times as plain numbers or
   /// with units.
   bool has_dimension(const Dimension& dimension, bool has_length, bool has_time) const {
-    constexpr double rounding = 1e-9;  // powers of units after a few operations
-    int decade = 9;                    // of the state: from large values to small ones, in SI units
+    int decade = 9;  // of the state: from large values to small ones, in SI units
     for (const Place& place : test_places()) {
       std::vector<double> values, resized_values;
       for (const StateVariable& variable : state) {
@@ -203,7 +203,7 @@ struct Resized {
       const double expected = in_sizes(dimension, sizes) * before.at(variables_at(place, values)),
                    value = after.at(variables_at(resized, resized_values));
       if (!std::isfinite(expected) || !std::isfinite(value)) continue;
-      if (std::abs(value - expected) > rounding * std::max(std::abs(value), std::abs(expected))) return false;
+      if (std::abs(value - expected) > rounding::same * std::max(std::abs(value), std::abs(expected))) return false;
     }
     return true;
   }

@@ -10,6 +10,7 @@
 #include "framework/linear/refined_solve.hpp"
 #include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -43,7 +44,6 @@ void remove_from(Vector& v, const std::vector<Vector>& known) {
 /// terms cancel, up to 1 where they do not. Only columns in which a vector is clearly not zero count, since round-off
 /// of the others may exceed the entries of a sum.
 Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows, const std::vector<Vector>& vectors) {
-  constexpr double doubtful = 1e-8;  // square root of round-off
   const int sums = static_cast<int>(system.sums.size()), count = static_cast<int>(vectors.size());
   SPREKK_EXPECT(rows.rows() == static_cast<Eigen::Index>(system.rows.size()), rows.rows(), system.rows.size());
   Vector values = Vector::Zero(sums * count), sizes = values;
@@ -54,7 +54,7 @@ Eigen::MatrixXd resistance(const LinearSystem& system, const SparseMatrix& rows,
       const double largest = vectors[k].lpNorm<Eigen::Infinity>();
       for (SparseMatrix::InnerIterator entry(rows, place - system.rows.begin()); entry; ++entry) {
         const double moved = vectors[k][entry.col()];
-        if (std::abs(moved) < doubtful * largest) continue;
+        if (std::abs(moved) < rounding::half_of_digits * largest) continue;
         values[s * count + k] += entry.value() * moved;
         sizes[s * count + k] += std::abs(entry.value() * moved);
       }
@@ -109,7 +109,6 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
                              const SolveInPlace& solve_transposed) {
   constexpr double suspicious = 1e8;  // a singular matrix grows a random vector by 1e16 / sqrt(n), roughly
   constexpr double singular = 3e-15;  // a floating rock shows 1e-16; an open fracture in tight rock has 5e-15
-  constexpr double rounded = 1e-13;   // in a row: some hundred roundings
   const int unknowns = static_cast<int>(rows.cols());
   std::vector<Vector> resting;  // nearly null vectors, orthogonal to one another
   for (std::size_t number = 0; number <= system.sums.size(); ++number) {
@@ -146,7 +145,7 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
       remove_from(v, resting);
       normalize(v);
     }
-    if (!(smallest <= singular) || !(worst_row(rows, best) <= rounded)) return "";
+    if (!(smallest <= singular) || !(worst_row(rows, best) <= rounding::of_terms)) return "";
     resting.push_back(std::move(best));
     const Vector found = without_resistance(system, rows, resting);
     if (found.size() == 0) continue;
