@@ -10,6 +10,7 @@
 #include "framework/assembly/follows_waiting.hpp"
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/assembly/state_fields.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -42,9 +43,7 @@ class Aperture : public Coupler, public FollowsMesh, public Stabilizes, public F
     const int cells = context.mesh.fracture_cell_count();
     std::vector<Triplet> entries;
     for (int i = 0; i < cells; ++i) entries.emplace_back(i, dimension * i, 1.0);
-    SparseMatrix normal(cells, dimension * cells);
-    normal.setFromTriplets(entries.begin(), entries.end());
-    normal_ = Operator(std::move(normal));
+    normal_ = Operator(matrix_of(cells, dimension * cells, entries));
   }
 
   bool allows_stages() const override { return true; }
@@ -62,10 +61,10 @@ class Aperture : public Coupler, public FollowsMesh, public Stabilizes, public F
     const Vector& initial = fluid_.initial_aperture();
     Vector least(initial.size());
     const Vector jump = contacts_.jump();
-    constexpr double half = 0.5;  // of an aperture, by which it closes in a pass at most: it stays positive
+    // An aperture closes by half in a pass at most: it stays positive.
     for (Eigen::Index i = 0; i < least.size(); ++i) {
       const double opening = jump[dimension * i];
-      least[i] = -std::max({opening, half * (initial[i] + opening), 0.0});
+      least[i] = -std::max({opening, 0.5 * (initial[i] + opening), 0.0});
     }
     return least;
   }

@@ -12,12 +12,12 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/ridge_distance.hpp"
+#include "framework/noticeable.hpp"
+#include "framework/round_off.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
 namespace {
-
-constexpr double noticeable_part_along = 1e-2;  // of what the rock beside a fracture conducts along it
 
 struct ExchangeOptions {
   std::optional<Data> conductance;
@@ -134,7 +134,7 @@ class Exchange : public Coupler {
     along_.clear();
     const Vector* thickness = fracture_.thickness();
     if (dimension == 2 || !thickness) return;
-    double largest = noticeable_part_along;
+    double largest = noticeable;
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
       const FractureCell& cell = mesh_.fracture_cells[i];
       double rock = 0;  // W/(m K), the mean of both sides
@@ -158,10 +158,9 @@ class Exchange : public Coupler {
 
   /// Whether the lines from the centre to the ridges are at right angles to these.
   bool is_exact_by_two_points(int cell) const {
-    constexpr double round_off = 1e-9;  // of the distance: round-off of coordinates
     return std::ranges::all_of(mesh_.fracture_cells[cell].ridges, [&](int ridge) {
       const double apart = (mesh_.ridges[ridge].center - mesh_.fracture_cells[cell].center).norm();
-      return apart <= (1 + round_off) * distance_to_ridge(mesh_, cell, ridge);
+      return apart <= (1 + rounding::same) * distance_to_ridge(mesh_, cell, ridge);
     });
   }
 

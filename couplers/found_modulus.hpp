@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "framework/round_off.hpp"
 #include "framework/types.hpp"
 
 namespace sprekk::couplers {
@@ -22,13 +23,12 @@ class FoundModulus {
   /// The rock has been solved for with this pressure (Pa); `stored`: alpha times the volume of each cell (m^2); `least`
   /// and `most`: both bounds of b V (m^2/Pa). All processes need all values.
   void rock_is_solved(const Vector& pressure, const Vector& stored, const Vector& least, const Vector& most) {
-    constexpr int looked_at = 2;        // pairs of passes; in later ones the change is little more than round-off
-    constexpr double round_off = 1e-6;  // of the largest pressure
+    constexpr int looked_at = 2;  // pairs of passes; in later ones the change is little more than round-off
     if (passes_ > 0 && passes_ <= looked_at) {
       const Vector dp = pressure - pressure_;
       const Vector squares = dp.cwiseAbs2();
       const double low = least.dot(squares), high = most.dot(squares);
-      const bool is_seen = dp.lpNorm<Eigen::Infinity>() > round_off * pressure.lpNorm<Eigen::Infinity>();
+      const bool is_seen = dp.lpNorm<Eigen::Infinity>() > rounding::far_above * pressure.lpNorm<Eigen::Infinity>();
       if (is_seen && high > low) share_ = std::clamp(((stored - stored_).dot(dp) - low) / (high - low), 0.0, 1.0);
     }
     ++passes_;

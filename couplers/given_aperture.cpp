@@ -6,6 +6,7 @@
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/given_on_fractures.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/round_off.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -27,10 +28,9 @@ class GivenAperture : public Coupler {
         aperture_(context.the<FractureFluid>().aperture()),
         given_(context.the<GivesAperture>().given_aperture()) {
     context.determine(aperture_);
-    constexpr double rounding = 1e-9;  // of an aperture that is written in other units
     const Vector& initial = context.the<FractureFluid>().initial_aperture();
     for (Eigen::Index i = 0; i < initial.size(); ++i)
-      if (std::abs(given_.accepted()[i] - initial[i]) > rounding * initial[i])
+      if (std::abs(given_.accepted()[i] - initial[i]) > rounding::same * initial[i])
         throw InputError(context.origin,
                          fmt::format("{} starts with {:.6g} m, and the aperture with {:.6g} m, at {}", given_.name(),
                                      given_.accepted()[i], initial[i], to_text(context.mesh.fracture_cells[i].center)),

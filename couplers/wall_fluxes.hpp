@@ -8,22 +8,21 @@
 #include "framework/assembly/assembly.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {
 
 /// Fluxes through walls, from the fracture into the matrix.
 struct WallFluxes {
-  explicit WallFluxes(const Mesh& mesh) : to_walls(mesh.wall_count(), mesh.fracture_cell_count()) {
+  explicit WallFluxes(const Mesh& mesh) {
     std::vector<Triplet> ones, measures;
     for (int w = 0; w < mesh.wall_count(); ++w) {
       ones.emplace_back(w, w / 2, 1.0);
       measures.emplace_back(w / 2, w, mesh.fracture_cells[w / 2].measure);
     }
-    to_walls.setFromTriplets(ones.begin(), ones.end());
-    SparseMatrix rates(mesh.fracture_cell_count(), mesh.wall_count());
-    rates.setFromTriplets(measures.begin(), measures.end());
-    outflow = Operator(std::move(rates));
+    to_walls = matrix_of(mesh.wall_count(), mesh.fracture_cell_count(), ones);
+    outflow = Operator(matrix_of(mesh.fracture_cell_count(), mesh.wall_count(), measures));
   }
   SparseMatrix to_walls;  ///< walls × fracture cells: ones
   Operator outflow;       ///< fracture cells × walls: rates out of the fracture cells by fluxes

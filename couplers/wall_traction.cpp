@@ -14,8 +14,10 @@
 #include "framework/assembly/rests_together.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/quality/network_shape.hpp"
+#include "framework/round_off.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::couplers {
@@ -150,8 +152,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
         pressure[point.cells[0]] = std::max(pressure[point.cells[0]], 0.0);
     Eigen::Index lowest = 0;
     const double suction = -pressure.minCoeff(&lowest);
-    constexpr double rounding = 1e-6;  // of the largest pressure, far above round-off
-    if (suction <= rounding * pressure.maxCoeff() || suction <= 0 || alpha_[lowest] == 0) return;
+    if (suction <= rounding::far_above * pressure.maxCoeff() || suction <= 0 || alpha_[lowest] == 0) return;
     notes.add(fluid_->pressure().name() + " suction",
               fmt::format("{} falls to {:.3g} Pa at {} (suction: it pulls the walls of the fracture together, which a "
                           "fluid that may boil does not) look at what is extracted there, at fluid that cannot reach a "
@@ -216,8 +217,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     int deepest = 0;
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
       if (jump[dimension * i] < jump[dimension * deepest]) deepest = i;
-    constexpr double rounding = 1e-6;  // of the largest jump: far above round-off
-    if (jump.size() == 0 || jump[dimension * deepest] >= -rounding * jump.lpNorm<Eigen::Infinity>()) return;
+    if (jump.size() == 0 || jump[dimension * deepest] >= -rounding::far_above * jump.lpNorm<Eigen::Infinity>()) return;
     notes.add("overlapping walls of " + rock_.wall_traction().spec().owner,
               fmt::format("walls of fractures overlap by {:.3g} m at {} (no contact keeps them apart) add a contact to "
                           "the scene and to the coupler",
@@ -321,9 +321,7 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     SPREKK_ASSERT(alpha_.values().size() == mesh_.fracture_cell_count(), alpha_.values().size());
     std::vector<Triplet> entries;
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i) entries.emplace_back(dimension * i, i, alpha_[i]);
-    SparseMatrix load(dimension * mesh_.fracture_cell_count(), mesh_.fracture_cell_count());
-    load.setFromTriplets(entries.begin(), entries.end());
-    normal_load_ = Operator(std::move(load));
+    normal_load_ = Operator(matrix_of(dimension * mesh_.fracture_cell_count(), mesh_.fracture_cell_count(), entries));
   }
 
   const Mesh& mesh_;

@@ -5,14 +5,13 @@
 #include <limits>
 
 #include "framework/discretization/changes_along_face.hpp"
+#include "framework/noticeable.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
-constexpr double least_share_of_range = 0.01;  // of Overshoots::range: smaller overshoots are not noted
-// Of the base of potentials: ten times the residual that Newton's method leaves.
-constexpr double left_by_solvers = 1e-9;
 /// Inflow other than through faces is a source if it exceeds this share of all fluxes and of the storage.
 constexpr double least_share_of_source = 1e-3;
 
@@ -71,14 +70,14 @@ double range_of(const FlowStep& step) {
 Overshoots find_overshoots(const FlowStep& step) {
   Overshoots found;
   found.range = range_of(step);
-  if (!(found.range > left_by_solvers * step.base)) return found;
+  // Of the base of potentials: what Newton's method leaves is less.
+  if (!(found.range > rounding::same * step.base)) return found;
   double cells = 0;
   for (int cell = 0; cell < step.mesh.cell_count(); ++cell) {
     if (step.mesh.cell_rank[cell] != parallel::rank()) continue;
     for (const double sign : {1.0, -1.0}) {
       const double above = excess(step, cell, sign);
-      if (above <= least_share_of_range * found.range || sign * share_of_source(step, cell) > least_share_of_source)
-        continue;
+      if (above <= noticeable * found.range || sign * share_of_source(step, cell) > least_share_of_source) continue;
       ++cells;
       if (above > found.largest) found.cell = cell;
       found.largest = std::max(found.largest, above);

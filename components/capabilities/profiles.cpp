@@ -6,6 +6,7 @@
 #include "framework/config/data_reader.hpp"
 #include "framework/config/expression.hpp"
 #include "framework/config/spec.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -100,9 +101,8 @@ struct RegisterProfile {
       const auto law = std::make_shared<Law>();
       law->spec().read(*node.find(key), request.context);
       const auto value = [law, key, where = node.origin, name = request.name](const Place& place) {
-        constexpr double round_off = 1e-9;  // of heights: far above that of their differences
         const double depth = law->datum - place.x[dimension - 1];
-        if (law->ends_at_datum && depth < -round_off * (1 + std::abs(law->datum)))
+        if (law->ends_at_datum && depth < -rounding::same * (1 + std::abs(law->datum)))
           throw DataError(InputError(where, "'" + name + "' has no value at " + place_text(place),
                                      "the place is above the 'surface' of '" + key + "'", "raise 'surface'")
                               .what());

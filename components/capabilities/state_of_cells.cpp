@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/field/ownership.hpp"
+#include "framework/matrix_of.hpp"
 
 namespace sprekk {
 
@@ -81,9 +82,7 @@ std::vector<std::pair<const Field*, SparseMatrix>> StateOfCells::derivatives_of_
     std::vector<Triplet> entries;
     for (int c = 0; c < mesh_.cell_count(); ++c)
       entries.emplace_back(c, components * c + source.component, source.factor);
-    SparseMatrix of_field(mesh_.cell_count(), source.field->size());
-    of_field.setFromTriplets(entries.begin(), entries.end());
-    all.emplace_back(source.field, std::move(of_field));
+    all.emplace_back(source.field, matrix_of(mesh_.cell_count(), source.field->size(), entries));
   }
   for (const StateExpression& source : expressions_[named_[k]])
     if (!is_settling_ && source.expression->constant.size() > 0)

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "components/contact/tangents.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 
 namespace sprekk::contact {
 
@@ -12,7 +14,7 @@ CellEquations equations_of(const Trial& t, const Point& traction, const CellSett
                 settings.tangential_stiffness);
   const double f_n = traction[0], c_n = settings.normal_stiffness, c_t = settings.tangential_stiffness;
   const double gap_by_f = t.gap_by_traction - settings.normal_compliance;
-  const TangentialVector f_t = traction.tail<dimension - 1>();
+  const TangentialVector f_t = traction.tail<tangents>();
   CellEquations equations;
   Point& own = equations.residual;
   Tensor &by_f = equations.by_traction, &by_u = equations.by_jump;
@@ -21,7 +23,6 @@ CellEquations equations_of(const Trial& t, const Point& traction, const CellSett
     by_f.diagonal().setConstant(1 / c_t);
     by_f(0, 0) = 1 / c_n;
   } else {
-    constexpr int tangents = dimension - 1;
     using Row = Eigen::Matrix<double, 1, dimension>;
     const ReturnedTraction<tangents> returned = t.at_rate ? t.at_rate->traction : return_to_cone<tangents>(t);
     Row gap_by_u;
@@ -76,9 +77,7 @@ SparseMatrix block_diagonal(const CellBlocks& blocks, Pattern pattern) {
         if (pattern == Pattern::full || k > 0 || l == 0) entries.emplace_back(row + k, row + l, blocks[i](k, l));
   }
   const auto rows = static_cast<int>(dimension * blocks.size());
-  SparseMatrix matrix(rows, rows);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return matrix_of(rows, rows, entries);
 }
 
 }  // namespace sprekk::contact

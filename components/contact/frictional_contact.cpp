@@ -13,6 +13,7 @@
 #include "components/contact/options.hpp"
 #include "components/contact/places_of_parameters.hpp"
 #include "components/contact/rate_and_state_walls.hpp"
+#include "components/contact/tangents.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
@@ -107,26 +108,25 @@ void FrictionalContact::set_wall_stiffness(const Vector& stiffness) {
   stiffness_of_springs_ = stiffness_of_fractures_ = stiffness_of_walls_;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     const FractureCell& cell = mesh_.fracture_cells[i];
-    stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1) *= cell.size() / fracture_size_[cell.fracture];
+    stiffness_of_fractures_.segment<tangents>(dimension * i + 1) *= cell.size() / fracture_size_[cell.fracture];
     constexpr double at_most = 0.5;  // times the tangential stiffness over mu_s tan psi
     const double wedge = std::max(friction_[i] * dilation_[i], std::numeric_limits<double>::min());
     for (Vector* c : {&stiffness_of_walls_, &stiffness_of_fractures_}) {
       // The same stiffness for all tangents: the return to the cone then does not depend on the directions of the
       // tangents.
-      auto tangential = c->segment<dimension - 1>(dimension * i + 1);
+      auto tangential = c->segment<tangents>(dimension * i + 1);
       const double least = tangential.minCoeff();
       tangential.setConstant(least);
       (*c)[dimension * i] = std::min((*c)[dimension * i], at_most * least / wedge);
     }
-    stiffness_of_springs_.segment<dimension - 1>(dimension * i + 1) =
-        stiffness_of_fractures_.segment<dimension - 1>(dimension * i + 1);
+    stiffness_of_springs_.segment<tangents>(dimension * i + 1) =
+        stiffness_of_fractures_.segment<tangents>(dimension * i + 1);
   }
 }
 
 void FrictionalContact::after_solve(const std::vector<Field*>& solved, const StepTime&) {
   if (std::find(solved.begin(), solved.end(), &traction_) == solved.end()) return;
   if (rate_and_state_ && bonded_.empty()) {
-    constexpr int tangents = dimension - 1;
     Vector rates(tangents * mesh_.fracture_cell_count());
     for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
       if (is_on_fracture_cell(i))
@@ -139,7 +139,7 @@ void FrictionalContact::after_solve(const std::vector<Field*>& solved, const Ste
     Vector paths = Vector::Zero(mesh_.fracture_cell_count());
     for (int i = 0; i < paths.size(); ++i)
       if (is_on_fracture_cell(i))
-        paths[i] = path(i, gap(i, traction_.now(), jump_.now()), magnitude<dimension - 1>(moved(i)));
+        paths[i] = path(i, gap(i, traction_.now(), jump_.now()), magnitude<tangents>(moved(i)));
     path_->set(std::move(paths));
   }
   if (history_) history_->remember(state_remembered(true));
@@ -200,7 +200,6 @@ std::string FrictionalContact::loss_of_one_stage() const {
 }
 
 Vector FrictionalContact::slips() const {
-  constexpr int tangents = dimension - 1;
   Vector slips(tangents * mesh_.fracture_cell_count());
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     slips.segment<tangents>(tangents * i) = tangential(jump_.now(), i);
@@ -240,7 +239,6 @@ double FrictionalContact::longest_step(double) const {
 std::optional<StepTooLong> FrictionalContact::too_long(const StepTime& step) const {
   if (!rate_and_state_) return std::nullopt;
   Vector slip = slips();
-  constexpr int tangents = dimension - 1;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i)
     slip.segment<tangents>(tangents * i) -= tangential(jump_.accepted(), i);
   return rate_and_state_->too_long(slip, step);

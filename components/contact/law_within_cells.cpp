@@ -4,6 +4,7 @@
 
 #include "components/contact/frictional_contact.hpp"
 #include "components/contact/trial_state.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::contact {
 
@@ -21,7 +22,6 @@ double FrictionalContact::pressure_beside(int i) const {
 std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   if constexpr (dimension != 2) return std::nullopt;
   if (is_bonded(i) || !is_on_fracture_cell(i)) return std::nullopt;
-  constexpr double at_bound = 1e-6;    // relative: walls with less shear than the bound by more than this stick
   constexpr double least_slip = 1e-3;  // of the slip that would take all shear from the walls
   const Trial t = trial(i);
   const double normal = traction_.now()[dimension * i], shear = traction_.now()[dimension * i + 1],
@@ -31,7 +31,7 @@ std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
   // Walls at rest that have slid keep their slip and opening within the cell: the friction is then the mobilised one.
   // Otherwise a tiny fall of the pressure would change the walls next to a kink at once.
   const bool has_slid = std::abs(slip) > least_slip * std::abs(shear) / stiffness_to_slip;
-  if (is_closed && !has_slid && std::abs(shear) < (1 - at_bound) * held) return std::nullopt;
+  if (is_closed && !has_slid && std::abs(shear) < (1 - rounding::far_above) * held) return std::nullopt;
   const double dilation = std::copysign(t.dilation, slip),
                opening = dilated(i, std::abs(slip)) - dilation * slip - closure(i, normal);
   if (!is_closed) return SlidingWalls{t.strength.friction, std::copysign(1.0, slip), dilation, opening};

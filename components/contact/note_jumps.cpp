@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "framework/invariants.hpp"
+#include "framework/noticeable.hpp"
 
 namespace sprekk::contact {
 
@@ -58,7 +59,6 @@ void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const J
   SPREKK_EXPECT(static_cast<int>(step.is_open.size()) == mesh.fracture_cell_count(), step.is_open.size());
   note_slips(notes, name, step);
   for (const Fracture& fracture : mesh.fractures) {
-    constexpr double friction_shows = 1e-2;  // of what presses the walls together
     double measure = 0, jump = 0, sheared = 0, pressed = 0;
     bool all_open = true;
     for (int i = fracture.first_cell; i < fracture.first_cell + fracture.cell_count; ++i) {
@@ -82,7 +82,7 @@ void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const J
                 jump);
     // No note where cells were open from the start, nor where friction has held nothing: a fracture that fluid opens is
     // meant to. Cells that have grown start closed.
-    if (all_open && pressed > 0 && sheared > friction_shows * pressed)
+    if (all_open && pressed > 0 && sheared > noticeable * pressed)
       notes.add(name + " all open: " + fracture.name,
                 fmt::format("all {} cells of fracture '{}' have opened (the fluid carries all that pressed its walls "
                             "together, and friction holds nothing any more) look at rates and pressures, if it was "

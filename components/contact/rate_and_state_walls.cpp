@@ -8,6 +8,7 @@
 
 #include "components/contact/fields.hpp"
 #include "components/contact/places_of_parameters.hpp"
+#include "components/contact/tangents.hpp"
 #include "framework/config/units.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
@@ -65,7 +66,6 @@ RateAndStateLaw::Returned RateAndStateWalls::returned(int cell, double friction,
 }
 
 double RateAndStateWalls::slip_rate(int cell) const {
-  constexpr int tangents = dimension - 1;
   return slip_rate_.now().segment<tangents>(tangents * cell).norm();
 }
 
@@ -95,7 +95,6 @@ double RateAndStateWalls::longest_step() const {
 
 std::optional<StepTooLong> RateAndStateWalls::too_long(const Vector& slip, const StepTime& step) const {
   constexpr double more_at_end = 2;  // times the slip that is allowed at the rate of the start
-  constexpr int tangents = dimension - 1;
   double most = 0;
   int place = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {

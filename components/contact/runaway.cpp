@@ -11,6 +11,7 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/output/progress.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::contact {
 
@@ -39,7 +40,6 @@ double lost_by_opening(const Strength& strength) { return -strength.tension_by_p
 }  // namespace
 
 Softened FrictionalContact::softened() const {
-  constexpr double least = 1e-9;  // of the distance over which strength is lost: far below any loss of strength
   Softened softened{{&traction_, &jump_, {}, {}}};
   if (!may_weaken()) return softened;
   const FreeValues free = free_values();
@@ -52,7 +52,8 @@ Softened FrictionalContact::softened() const {
     for (int k = 0; k < dimension; ++k) {
       const double lost = k == 0 ? lost_by_opening(strength) : lost_by_slip(strength, normal, dt_);
       const double moved = jump_.now()[dimension * i + k] - jump_.accepted()[dimension * i + k];
-      if (lost <= 0 || std::abs(moved) <= least * distance_of_loss(strength, normal)) continue;
+      // Walls that have hardly moved lose no strength.
+      if (lost <= 0 || std::abs(moved) <= rounding::same * distance_of_loss(strength, normal)) continue;
       const auto place = std::ranges::lower_bound(free.values, dimension * i + k);
       if (place == free.values.end() || *place != dimension * i + k) {
         softened.spent = std::numeric_limits<double>::infinity();

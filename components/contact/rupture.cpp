@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "components/contact/tangents.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::contact {
@@ -16,7 +17,6 @@ constexpr double log_at_zero = 9.1;  // log10 of the moment in N m at the magnit
 
 Rupture rupture_of(const Mesh& mesh, const Vector& slip, const Vector& stress_drop, const Vector& shear_modulus,
                    const std::vector<char>& takes_part) {
-  constexpr int tangents = dimension - 1;
   const int cells = mesh.fracture_cell_count();
   SPREKK_EXPECT(slip.size() == tangents * cells && stress_drop.size() == cells, slip.size(), stress_drop.size());
   Rupture rupture;

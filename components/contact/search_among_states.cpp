@@ -7,6 +7,7 @@
 #include "components/contact/rate_and_state_walls.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::contact {
 
@@ -78,20 +79,18 @@ int FrictionalContact::piece(int i) const {
 /// Opens all cells by a very small amount. The amount makes no difference, since the conditions of open cells are
 /// linear.
 void FrictionalContact::deactivate_conditions() {
-  constexpr double opening = 1e-9;  // of the length of a cell: conditions of open walls are linear
   Vector traction = traction_.now(), jump = jump_.now();
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
     if (is_bonded(i) || !is_on_fracture_cell(i)) continue;
     traction.segment<dimension>(dimension * i).setZero();
     const double least = dilated(i, magnitude<dimension - 1>(tangential(jump, i))) - closure(i, 0);
-    jump[dimension * i] = std::max(jump[dimension * i], least + opening * mesh_.fracture_cells[i].size());
+    jump[dimension * i] = std::max(jump[dimension * i], least + rounding::same * mesh_.fracture_cells[i].size());
   }
   traction_.set(std::move(traction));
   jump_.set(std::move(jump));
 }
 
 int FrictionalContact::keep_states() {
-  constexpr double least = 1e-6;  // of the largest jump; smaller jumps are round-off
   if (!is_solved_for_ || rate_and_state_) return 0;
   kept_.assign(mesh_.fracture_cell_count(), 0);
   int count = 0;
@@ -99,7 +98,7 @@ int FrictionalContact::keep_states() {
     if (!is_on_fracture_cell(i)) continue;
     const TangentialVector before = tangential(jump_.accepted(), i), slip = tangential(jump_.now(), i) - before;
     const bool slides_back = dilation_[i] > 0 && friction_[i] > 0 && slip.dot(before) < 0;
-    const double small = least * jump_.now().lpNorm<Eigen::Infinity>();
+    const double small = rounding::far_above * jump_.now().lpNorm<Eigen::Infinity>();
     if (is_bonded(i) || !slides_back ||
         std::min(magnitude<dimension - 1>(slip), magnitude<dimension - 1>(before)) < small)
       continue;

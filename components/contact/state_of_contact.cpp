@@ -10,6 +10,7 @@
 #include "components/contact/shear_load.hpp"
 #include "components/contact/trial_state.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/noticeable.hpp"
 
 namespace sprekk::contact {
 
@@ -64,9 +65,8 @@ void FrictionalContact::note_start(Notes& notes) const {
   int cells = 0, worst = none;
   double most = 0;
   for (int i = 0; i < mesh_.fracture_cell_count(); ++i) {
-    constexpr double small = 1e-2;  // of the traction
     const double beyond = is_on_fracture_cell(i) ? excess(i) : 0;
-    if (beyond <= small * traction_.now().segment<dimension>(dimension * i).norm()) continue;
+    if (beyond <= noticeable * traction_.now().segment<dimension>(dimension * i).norm()) continue;
     ++cells;
     if (beyond > most) {
       most = beyond;

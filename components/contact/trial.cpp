@@ -7,12 +7,18 @@
 
 #include "components/contact/frictional_contact.hpp"
 #include "components/contact/rate_and_state_walls.hpp"
+#include "components/contact/tangents.hpp"
 #include "framework/invariants.hpp"
 
 namespace sprekk::contact {
 
+namespace {
+/// Of the slip that would take all shear from the walls, and of the traction that makes a slip.
+constexpr double least_share = 1e-10;
+}  // namespace
+
 TangentialVector FrictionalContact::tangential(const Vector& values, int i) {
-  return values.segment<dimension - 1>(dimension * i + 1);
+  return values.segment<tangents>(dimension * i + 1);
 }
 
 Point FrictionalContact::compliance(int i) const {
@@ -28,7 +34,7 @@ double FrictionalContact::dynamic_friction(int i) const {
 }
 
 double FrictionalContact::gap(int i, const Vector& traction, const Vector& jump) const {
-  return jump[dimension * i] - dilated(i, magnitude<dimension - 1>(tangential(jump, i))) +
+  return jump[dimension * i] - dilated(i, magnitude<tangents>(tangential(jump, i))) +
          closure(i, traction[dimension * i]);
 }
 
@@ -42,15 +48,13 @@ double FrictionalContact::path(int i, double gap, double slip) const {
 }
 
 SlipOfStep FrictionalContact::slip_of_step(int i, const TangentialVector& trial) const {
-  constexpr int tangents = dimension - 1;
   const TangentialVector moved = this->moved(i);
   const double size = magnitude<tangents>(moved);
   if (tangents == 1 || multiplier_ == Multiplier::none) return {size, direction_of<tangents>(size > 0 ? moved : trial)};
   const TangentialVector direction = direction_of<tangents>(trial);
   const double along = moved.dot(direction);
-  constexpr double round_off = 1e-10;  // of the slip that would take all shear from the walls
   const bool is_first = magnitude<tangents>(tangential(jump_.accepted(), i)) <=
-                        round_off * magnitude<tangents>(trial) / stiffness()[dimension * i + 1];
+                        least_share * magnitude<tangents>(trial) / stiffness()[dimension * i + 1];
   return {std::max(0.0, along), direction, std::min(0.0, along), is_first};
 }
 
@@ -78,7 +82,7 @@ Trial FrictionalContact::trial(int i) const {
   SPREKK_ASSERT(friction_[i] >= 0 && dilation_[i] >= 0, i, friction_[i], dilation_[i]);
   const TangentialVector u_t = tangential(jump_.now(), i);
   Trial t;
-  const double slip = magnitude<dimension - 1>(u_t);
+  const double slip = magnitude<tangents>(u_t);
   t.gap = gap(i, traction_.now(), jump_.now());
   t.gap_by_traction = closure_by_traction(i, traction_.now()[row]);
   t.dilation = dilation_at(i, slip);
@@ -105,21 +109,19 @@ Trial FrictionalContact::trial(int i) const {
   if (rate_and_state_) t.bound = std::numeric_limits<double>::infinity();
   if (!kept_.empty() && kept_[i] && !t.is_open()) t.bound = std::numeric_limits<double>::infinity();
   // At the very start of slip, |slip| has the slope of the direction in which the cell is about to slip.
-  t.slip_direction = direction_of<dimension - 1>(magnitude<dimension - 1>(u_t) > 0 ? u_t : t.tangential);
+  t.slip_direction = direction_of<tangents>(magnitude<tangents>(u_t) > 0 ? u_t : t.tangential);
   t.bound_by_pressure =
       t.strength.friction + pressure * t.strength.friction_by_pressure + t.strength.cohesion_by_pressure;
   t.bound_by_slip = (t.strength.cohesion_by_slip + pressure * t.strength.friction_by_slip) *
                     (step.is_first ? step.by_jump : t.slip_direction);
   if (dt_ > 0)
     t.bound_by_slip += (t.strength.cohesion_by_rate + pressure * t.strength.friction_by_rate) / dt_ * step.by_jump;
-  constexpr double round_off = 1e-10;  // of the traction that makes the slip
-  t.least_bound = round_off * c_t * magnitude<dimension - 1>(u_t);
+  t.least_bound = least_share * c_t * magnitude<tangents>(u_t);
   if (rate_and_state_ && rate_and_state_->has_step()) t.at_rate = at_rate(i, t);
   return t;
 }
 
 Trial::AtRate FrictionalContact::at_rate(int i, const Trial& t) const {
-  constexpr int tangents = dimension - 1;
   const double size = magnitude<tangents>(t.tangential);
   const RateAndStateLaw::Returned held =
       rate_and_state_->returned(i, friction_[i], size, std::max(0.0, -t.normal), stiffness()[dimension * i + 1]);

@@ -9,6 +9,81 @@
 
 namespace sprekk::contact {
 
+namespace {
+
+void add_dilation(Spec& spec, Options& options) {
+  spec.data("dilation_angle", options.dilation_angle,
+            {.unit = "rad",
+             .range = between(0, 1.5),
+             .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
+             .source = "psi below the paper's Eq. 2",
+             .material = true,
+             .in_time = true});
+  usually(spec, "dilation_angle", usual_dilation_angle());
+  spec.quantity("dilation_limit", options.dilation_limit,
+                {.unit = "m",
+                 .range = non_negative(),
+                 .doc = "Slip beyond which the fracture opens no further: its asperities are worn. Without it, "
+                        "all slip opens."});
+  spec.data("dilation", options.dilation,
+            {.unit = "m",
+             .range = non_negative(),
+             .doc = "Opening by slip, instead of dilation_angle and dilation_limit: a formula, 0 without slip.",
+             .in_time = true});
+  may_be_formula(spec.name(), "dilation", dilation_variables());
+}
+
+Spec weakening_spec(Options& options) {
+  Spec lost("weakening", "How walls lose strength: linearly over a path, for good.");
+  lost.quantity("distance", options.weakening.distance,
+                {.unit = "m",
+                 .range = positive(),
+                 .doc = "Path of slip and opening, both ways counted, over which cohesion and tensile strength are "
+                        "lost and friction falls to that of `friction`.",
+                 .required = true});
+  lost.data("friction", options.dynamic_friction,
+            {.range = non_negative(),
+             .doc = "Coefficient of friction after that; without it, friction stays.",
+             .source = "linear slip weakening: Ida 1972, Andrews 1976",
+             .in_time = true});
+  return lost;
+}
+
+/// Refuses values that exclude each other, or have no effect.
+void check_laws(const Options& options, const Node& node) {
+  for (const char* other : {"dilation_angle", "dilation_limit"})
+    if (options.dilation && node.find(other))
+      throw InputError(node.find("dilation")->origin, fmt::format("'dilation' and '{}' exclude each other", other),
+                       "each says how far slip opens the fracture", "remove one of them");
+  if (options.dilation_limit && options.dilation_angle.is_zero())
+    throw InputError(node.find("dilation_limit")->origin, "'dilation_limit' has no effect",
+                     "slip opens nothing without a 'dilation_angle'", "add one, or remove it");
+  if (options.weakens && options.cohesion.is_zero() && options.weakening.tensile_strength == 0 &&
+      !options.dynamic_friction)
+    throw InputError(node.find("weakening")->origin, "'weakening' has no effect",
+                     "there is no cohesion or tensile strength to lose, and friction stays",
+                     "add one of these, or the 'friction' that is left");
+  if (options.dilation && options.dilation->is_constant() && !options.dilation->is_zero())
+    throw InputError(node.find("dilation")->origin, "'dilation' does not depend on the slip",
+                     "it is the opening that slip makes", "write a formula of slip, such as 0.1*slip");
+  if (options.friction_law.type != "constant" && (options.dynamic_friction || options.depends_on_rate))
+    throw InputError(
+        node.find("friction_law")->origin, "the law of friction is given twice",
+        options.depends_on_rate ? "'rate_and_state' is another one" : "'friction' of 'weakening' is another one",
+        "remove one of them");
+  if (options.weakens && options.depends_on_rate)
+    throw InputError(node.find("rate_and_state")->origin, "'rate_and_state' and 'weakening' exclude each other",
+                     "each says how friction changes with slip", "remove one of them");
+  if (options.depends_on_rate && !options.cohesion.is_zero())
+    throw InputError(node.find("cohesion")->origin, "'cohesion' has no effect",
+                     "with 'rate_and_state' walls always creep, and hold what that law says", "remove one of them");
+  if (!options.weakens && options.weakening.tensile_strength > 0)
+    throw InputError(node.origin, "'tensile_strength' is never lost", "the scene has no 'weakening'",
+                     "add weakening: {distance: ...} with the path over which it is lost");
+}
+
+}  // namespace
+
 Spec Options::spec(const std::string& type, const std::string& doc) {
   Spec spec(type, doc);
   spec.ignore("type");
@@ -24,25 +99,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   may_be_formula(spec.name(), "friction", strength_variables());
   spec.section("friction_law", friction_law.spec(),
                {.doc = "How friction changes with slip, path, slip rate and pressure, from `friction` on."});
-  spec.data("dilation_angle", dilation_angle,
-            {.unit = "rad",
-             .range = between(0, 1.5),
-             .doc = "Angle by which slip opens the fracture, g = |slip| tan psi.",
-             .source = "psi below the paper's Eq. 2",
-             .material = true,
-             .in_time = true});
-  usually(spec, "dilation_angle", usual_dilation_angle());
-  spec.quantity("dilation_limit", dilation_limit,
-                {.unit = "m",
-                 .range = non_negative(),
-                 .doc = "Slip beyond which the fracture opens no further: its asperities are worn. Without it, "
-                        "all slip opens."});
-  spec.data("dilation", dilation,
-            {.unit = "m",
-             .range = non_negative(),
-             .doc = "Opening by slip, instead of dilation_angle and dilation_limit: a formula, 0 without slip.",
-             .in_time = true});
-  may_be_formula(spec.name(), "dilation", dilation_variables());
+  add_dilation(spec, *this);
   spec.data("cohesion", cohesion,
             {.unit = "Pa",
              .range = non_negative(),
@@ -56,19 +113,8 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
                  .range = non_negative(),
                  .doc = "Normal traction at which walls part. `weakening` says how it is lost."});
   usually(spec, "tensile_strength", usual_strength());
-  Spec lost("weakening", "How walls lose strength: linearly over a path, for good.");
-  lost.quantity("distance", weakening.distance,
-                {.unit = "m",
-                 .range = positive(),
-                 .doc = "Path of slip and opening, both ways counted, over which cohesion and tensile strength are "
-                        "lost and friction falls to that of `friction`.",
-                 .required = true});
-  lost.data("friction", dynamic_friction,
-            {.range = non_negative(),
-             .doc = "Coefficient of friction after that; without it, friction stays.",
-             .source = "linear slip weakening: Ida 1972, Andrews 1976",
-             .in_time = true});
-  spec.section("weakening", lost, {.doc = "How walls lose strength: linearly over a path, for good."}, &weakens);
+  spec.section("weakening", weakening_spec(*this), {.doc = "How walls lose strength: linearly over a path, for good."},
+               &weakens);
   spec.section("rate_and_state", rate_and_state.spec(),
                {.doc = "Friction that depends on slip rate and on a state that ages, with the friction of steady slip "
                        "from `friction`."},
@@ -77,33 +123,7 @@ Spec Options::spec(const std::string& type, const std::string& doc) {
   spec.check([this](const Node& node) {
     if (const Node* given = node.find("fractures")) fractures_origin = given->origin;
     weakening.cohesion = cohesion.is_constant() ? cohesion.at({}) : 0;
-    for (const char* other : {"dilation_angle", "dilation_limit"})
-      if (dilation && node.find(other))
-        throw InputError(node.find("dilation")->origin, fmt::format("'dilation' and '{}' exclude each other", other),
-                         "each says how far slip opens the fracture", "remove one of them");
-    if (dilation_limit && dilation_angle.is_zero())
-      throw InputError(node.find("dilation_limit")->origin, "'dilation_limit' has no effect",
-                       "slip opens nothing without a 'dilation_angle'", "add one, or remove it");
-    if (weakens && cohesion.is_zero() && weakening.tensile_strength == 0 && !dynamic_friction)
-      throw InputError(node.find("weakening")->origin, "'weakening' has no effect",
-                       "there is no cohesion or tensile strength to lose, and friction stays",
-                       "add one of these, or the 'friction' that is left");
-    if (dilation && dilation->is_constant() && !dilation->is_zero())
-      throw InputError(node.find("dilation")->origin, "'dilation' does not depend on the slip",
-                       "it is the opening that slip makes", "write a formula of slip, such as 0.1*slip");
-    if (friction_law.type != "constant" && (dynamic_friction || depends_on_rate))
-      throw InputError(node.find("friction_law")->origin, "the law of friction is given twice",
-                       depends_on_rate ? "'rate_and_state' is another one" : "'friction' of 'weakening' is another one",
-                       "remove one of them");
-    if (weakens && depends_on_rate)
-      throw InputError(node.find("rate_and_state")->origin, "'rate_and_state' and 'weakening' exclude each other",
-                       "each says how friction changes with slip", "remove one of them");
-    if (depends_on_rate && !cohesion.is_zero())
-      throw InputError(node.find("cohesion")->origin, "'cohesion' has no effect",
-                       "with 'rate_and_state' walls always creep, and hold what that law says", "remove one of them");
-    if (!weakens && weakening.tensile_strength > 0)
-      throw InputError(node.origin, "'tensile_strength' is never lost", "the scene has no 'weakening'",
-                       "add weakening: {distance: ...} with the path over which it is lost");
+    check_laws(*this, node);
   });
   spec.quantity("large_jump", large_jump,
                 {.range = positive(),

@@ -8,6 +8,7 @@
 #include "framework/assembly/property.hpp"
 #include "framework/field/counted_amounts.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/ridge_distance.hpp"
 
 namespace sprekk::fracture_transport {
@@ -135,10 +136,7 @@ void FractureTransport::connect() {
     for (std::size_t i = 0; i < at.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) join(at[i], at[j], halves[i] * halves[j] / sum);
   }
-  SparseMatrix outflow(cells, cells), leaving(cells, cells);
-  outflow.setFromTriplets(entries.begin(), entries.end());
-  leaving.setFromTriplets(ends.begin(), ends.end());
-  outflow_of_value_ = Operator(std::move(outflow), std::move(leaving));
+  outflow_of_value_ = Operator(matrix_of(cells, cells, entries), matrix_of(cells, cells, ends));
 }
 
 void FractureTransport::evaluate_data(const StepTime& step) {

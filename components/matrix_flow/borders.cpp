@@ -6,6 +6,7 @@
 #include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
 
@@ -53,8 +54,7 @@ void MatrixFlow::use_borders() {
     std::vector<Triplet> values;
     for (int f = 0; f < faces; ++f)
       if (border.faces[f]) values.emplace_back(f, f, border.sign * mesh_.face_measure[f]);
-    border.boundary.resize(faces, faces);
-    border.boundary.setFromTriplets(values.begin(), values.end());
+    border.boundary = matrix_of(faces, faces, values);
     border.flux = operators_.flux_boundary * border.boundary;
     const auto sums = [&](const SparseMatrix& fluxes) {
       const SparseMatrix of_cells = cell_sums(mesh_, fluxes, 1, parallel::rank());

@@ -2,7 +2,9 @@
 
 #include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/wall_matrices.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/cell_sums.hpp"
 
 namespace sprekk::matrix_flow {
@@ -57,9 +59,7 @@ class Buoyancy::RowMaker {
 
   Rows rows() const {
     const auto matrix = [&](const std::vector<Triplet>& entries, int columns) {
-      SparseMatrix made(mesh_.face_count(), columns);
-      made.setFromTriplets(entries.begin(), entries.end());
-      return made;
+      return matrix_of(mesh_.face_count(), columns, entries);
     };
     return {matrix(cells_, mesh_.cell_count()), matrix(boundaries_, mesh_.face_count()),
             matrix(walls_, mesh_.fracture_cell_count())};
@@ -185,11 +185,7 @@ void Buoyancy::add_to_sides(LinearExpression& expression, const std::vector<char
 }
 
 void Buoyancy::add_to_walls(LinearExpression& expression) const {
-  std::vector<Triplet> entries;
-  for (int w = 0; w < mesh_.wall_count(); ++w)
-    if (is_owned(mesh_, Location::wall, w)) entries.emplace_back(w, mesh_.wall_face(w), 1.0);
-  SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
-  pick_walls.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix pick_walls = owned_walls_of_faces(mesh_);
   expression.constant += pick_walls * trace_.of_boundaries;
   add_linearized(expression, pick_walls * trace_.cells, in_rock_);
   if (in_fractures_) add_linearized(expression, pick_walls * trace_.walls, *in_fractures_);

@@ -9,6 +9,7 @@
 #include "components/matrix_flow/state_permeability.hpp"
 #include "components/matrix_flow/storage_formula.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/wall_matrices.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -151,11 +152,7 @@ void MatrixFlow::linearize() {
     for (const auto& [field, of_variable] : by_state_->state().derivatives_of_variable(k))
       linearized_.push_back({field, derivatives[k].flux * of_variable, derivatives[k].trace * of_variable});
   if (!wall_flux_) return;
-  std::vector<Triplet> entries;
-  for (int w = 0; w < mesh_.wall_count(); ++w)
-    if (is_owned(mesh_, Location::wall, w)) entries.emplace_back(w, mesh_.wall_face(w), 1.0);
-  SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
-  pick_walls.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix pick_walls = owned_walls_of_faces(mesh_);
   wall_pressure_before_ = std::move(wall_pressure_by_state_);
   wall_pressure_by_state_ = wall_pressure_;
   for (const ByState& by_field : linearized_) {

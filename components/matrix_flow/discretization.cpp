@@ -7,6 +7,7 @@
 #include "framework/assembly/products.hpp"
 #include "framework/discretization/changes_along_face.hpp"
 #include "framework/field/ownership.hpp"
+#include "framework/field/wall_matrices.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -164,22 +165,14 @@ void MatrixFlow::use_operators() {
   }
 
   // The flux out of the rock through a wall is −lambda times its length.
-  std::vector<Triplet> entries;
-  for (int w = 0; w < mesh_.wall_count(); ++w)
-    entries.emplace_back(mesh_.wall_face(w), w, -mesh_.face_measure[mesh_.wall_face(w)]);
-  boundary_of_wall_flux_.resize(mesh_.face_count(), mesh_.wall_count());
-  boundary_of_wall_flux_.setFromTriplets(entries.begin(), entries.end());
+  boundary_of_wall_flux_ = outflow_of_wall_fluxes(mesh_);
   flux_of_wall_flux_ = operators_.flux_boundary * boundary_of_wall_flux_;
   outflow_of_wall_flux_ = outflow_of(flux_of_wall_flux_);
   if (is_limited_ && !is_sealed_)
     for (const int side : {0, 1})
       limited_of_wall_flux_[side] = operators_.limited[side].boundary * boundary_of_wall_flux_;
 
-  entries.clear();
-  for (int w = 0; w < mesh_.wall_count(); ++w)
-    if (is_owned(mesh_, Location::wall, w)) entries.emplace_back(w, mesh_.wall_face(w), 1.0);
-  SparseMatrix pick_walls(mesh_.wall_count(), mesh_.face_count());
-  pick_walls.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix pick_walls = owned_walls_of_faces(mesh_);
   wall_pressure_.terms = {{&pressure_, Operator(pick_walls * operators_.trace_cell)},
                           {wall_flux_, Operator(pick_walls * operators_.trace_boundary * boundary_of_wall_flux_)}};
   use_borders();

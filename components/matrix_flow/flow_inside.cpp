@@ -4,6 +4,7 @@
 
 #include "framework/discretization/changes_along_face.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -59,8 +60,8 @@ FluxOperators discretize_inside(Discretize discretize, const FlowInputs& flow, c
       if (keeps[row])
         for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry)
           if (is_kept(static_cast<int>(entry.col()))) entries.emplace_back(row, entry.col(), entry.value());
-    SparseMatrix reduced(mesh.face_count(), of_face > 0 ? of_face * mesh.face_count() : mesh.cell_count());
-    reduced.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix reduced =
+        matrix_of(mesh.face_count(), of_face > 0 ? of_face * mesh.face_count() : mesh.cell_count(), entries);
     matrix.swap(reduced);
   };
   constexpr int of_cells = 0;

@@ -5,6 +5,7 @@
 #include "components/matrix_flow/leaky_sides.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
 #include "framework/assembly/balance_rows.hpp"
+#include "framework/matrix_of.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -33,8 +34,7 @@ void MatrixFlow::assemble_leak(Assembly& assembly, BalanceRows& fluid, double dt
   std::vector<Triplet> entries;
   for (const auto& [face, cell] : outer_faces_)
     if (leaky_sides_->faces()[face]) entries.emplace_back(cell, face, dt * mesh_.face_measure[face]);
-  SparseMatrix into_cells(mesh_.cell_count(), mesh_.face_count());
-  into_cells.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix into_cells = matrix_of(mesh_.cell_count(), mesh_.face_count(), entries);
   const Vector amounts = into_cells * correction.value;
   fluid.exchange(amounts, amounts,
                  (into_cells * correction.of_trace).lpNorm<Eigen::Infinity>() * leaky_sides_->largest_pressure());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "components/capabilities/fluid_at_start.hpp"
 #include "components/capabilities/overshoots.hpp"
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/leaky_sides.hpp"
@@ -12,25 +13,22 @@
 #include "components/matrix_flow/start_balance.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::matrix_flow {
 
 namespace {
 
-constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest borehole has above it
-constexpr double rounding = 1e-6;           // of the initial pressure: far above round-off
-constexpr double on_it = 1e-6;              // of the size of a fracture cell: a well that is nearer lies on it
-
 /// Whether a point lies between the ends of a fracture cell, or inside of its edges, as seen along its normal. `away`:
 /// from its centre, in its frame.
 bool is_beside(const Mesh& mesh, const FractureCell& cell, const Point& away) {
-  if constexpr (dimension == 2) return std::abs(away[1]) < (0.5 + on_it) * cell.measure;
+  if constexpr (dimension == 2) return std::abs(away[1]) < (0.5 + rounding::far_above) * cell.measure;
   const FaceNodes& nodes = mesh.face_nodes[cell.faces[0]];
   const int count = static_cast<int>(nodes.size());
   for (int k = 0; k < count; ++k) {
     const Point from = cell.to_local(mesh.nodes[nodes[k]] - cell.center);
     const Point edge = cell.to_local(mesh.nodes[nodes[(k + 1) % count]] - cell.center) - from, way = away - from;
-    if (edge[1] * way[dimension - 1] - edge[dimension - 1] * way[1] < -on_it * cell.measure) return false;
+    if (edge[1] * way[dimension - 1] - edge[dimension - 1] * way[1] < -rounding::far_above * cell.measure) return false;
   }
   return true;
 }
@@ -40,7 +38,8 @@ std::string fracture_at(const Mesh& mesh, const Point& at) {
   for (const FractureCell& cell : mesh.fracture_cells) {
     const Point away = cell.to_local(at - cell.center);
     const double size = dimension == 2 ? cell.measure : std::sqrt(cell.measure);
-    if (std::abs(away[0]) < on_it * size && is_beside(mesh, cell, away)) return mesh.fractures[cell.fracture].name;
+    if (std::abs(away[0]) < rounding::far_above * size && is_beside(mesh, cell, away))
+      return mesh.fractures[cell.fracture].name;
   }
   return "";
 }
@@ -109,7 +108,7 @@ void MatrixFlow::note_step(Notes& notes, const StepTime& step) const {
   const double smallest = pressure.minCoeff(&lowest), most = pressure.cwiseAbs().maxCoeff(&largest);
   // Pressures that begin above zero everywhere are absolute; others may be relative to any reference.
   const double initial = initial_pressure_.minCoeff();
-  if (initial > 0 && smallest < -rounding * initial)
+  if (initial > 0 && smallest < -rounding::far_above * initial)
     notes.add(
         pressure_.name() + " below zero",
         fmt::format("{} falls to {:.3g} Pa at {} (it began above zero everywhere, and no fluid bears to be pulled: "

@@ -7,15 +7,14 @@
 #include <limits>
 #include <optional>
 
+#include "components/capabilities/fluid_at_start.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/noticeable.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::matrix_flow {
 namespace {
-
-constexpr double small_part_of_weight = 1e-2;  // of the fluid
-constexpr double part_that_may_vary = 1e-1;    // of its weight, where the density follows temperature and pressure
-constexpr double sum_rounding = 1e-9;          // of the weight
 
 /// A cell whose pressure does not fit the weight of its fluid.
 struct Misfit {
@@ -36,7 +35,7 @@ class Start {
     const Point down = g / g.norm();
     misfit.growth = gradient(c).dot(down);
     misfit.weight = of_.density[c] * g.norm();
-    if (std::abs(misfit.growth) < sum_rounding * misfit.weight) misfit.growth = 0;
+    if (std::abs(misfit.growth) < rounding::same * misfit.weight) misfit.growth = 0;
     misfit.size = std::abs(misfit.growth - misfit.weight);
     misfit.flow = misfit.size * down.dot(of_.mobility[c] * down);
     return misfit;
@@ -57,7 +56,7 @@ class Start {
       const double initial = of_.options.initial_pressure.at(place);
       const auto differs = [&](double pressure) {
         const double reach = (mesh.face_center[f] - mesh.cell_center[c]).norm();
-        return std::abs(pressure - initial) > small_part_of_weight * weight * reach;
+        return std::abs(pressure - initial) > noticeable * weight * reach;
       };
       if (side && side->pressure) {
         if (differs(side->pressure->at(place))) return true;
@@ -71,7 +70,7 @@ class Start {
       const double conducts = normal.dot(of_.mobility[c] * normal),
                    given = side && side->flux ? side->flux->at(place) : 0;
       const double flow = normal.dot(of_.mobility[c] * driven);
-      if (std::abs(flow - given) > small_part_of_weight * conducts * weight) return true;
+      if (std::abs(flow - given) > noticeable * conducts * weight) return true;
     }
     return false;
   }
@@ -103,7 +102,7 @@ class Start {
 /// "(P + 9810*(100 - y)) Pa": the pressure of fluid at rest under gravity along an axis, or "" along no axis.
 std::string at_rest(const FluidAtStart& start, const Misfit& worst) {
   for (int axis = 0; axis < dimension; ++axis) {
-    if (std::abs(worst.g[axis]) < (1 - sum_rounding) * worst.g.norm()) continue;
+    if (std::abs(worst.g[axis]) < (1 - rounding::same) * worst.g.norm()) continue;
     const bool is_down_negative = worst.g[axis] < 0;
     double top = is_down_negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
     for (const Point& node : start.mesh.nodes)
@@ -124,13 +123,13 @@ void note_start_imbalance(Notes& notes, const FluidAtStart& start, const std::st
   Misfit worst;
   double flow = 0;
   bool grows = true, has_other_sign = true;
-  const double small = start.density_varies ? part_that_may_vary : small_part_of_weight;
+  const double small = start.density_varies ? part_that_may_vary : noticeable;
   for (int c = 0; c < start.mesh.cell_count(); ++c) {
     if (!of.is_inhabited(c)) continue;
     const Misfit misfit = of.in_cell(c);
     if (misfit.weight == 0) continue;
     flow = std::max(flow, misfit.flow);
-    grows = grows && misfit.growth > sum_rounding * misfit.weight;
+    grows = grows && misfit.growth > rounding::same * misfit.weight;
     has_other_sign = has_other_sign && std::abs(misfit.growth + misfit.weight) <= small * misfit.weight;
     if (misfit.size > worst.size) worst = misfit;
   }

@@ -10,12 +10,10 @@
 #include "framework/discretization/principal_axes.hpp"
 #include "framework/field/field.hpp"
 #include "framework/linear/rigid_rotations.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
-
-/// Of squares of components of unit vectors, and of eigenvalues that are sums of such: round-off of an eigenvalue.
-constexpr double round_off = 1e-10;
 
 void check_sides(const Options& options, const Mesh& mesh) {
   for (const auto& [side, condition] : options.boundary)
@@ -26,7 +24,7 @@ void check_sides(const Options& options, const Mesh& mesh) {
 /// "x", "y", or the components of a unit vector.
 std::string direction_text(Point direction) {
   for (int k = 0; k < dimension; ++k)
-    if ((direction - direction[k] * Point::Unit(k)).squaredNorm() <= round_off) return axis_names[k];
+    if ((direction - direction[k] * Point::Unit(k)).squaredNorm() <= rounding::same) return axis_names[k];
   if (direction.x() < 0) direction = -direction;
   std::string text;
   for (const double component : direction) text += fmt::format("{}{:.3g}", text.empty() ? "(" : ", ", component);
@@ -53,7 +51,7 @@ void check_pinned(const Options& options, const Mesh& mesh) {
       const Tensor axes = axes_of(condition->axes(), mesh.face_normal[face]);
       for (int k = 0; k < dimension; ++k)
         for (int j = 0; j < dimension; ++j)
-          if (point.displacement_along[k] && condition->displacement_of(j) && axes(k, j) * axes(k, j) > round_off)
+          if (point.displacement_along[k] && condition->displacement_of(j) && axes(k, j) * axes(k, j) > rounding::same)
             throw InputError(point.origin,
                              "the displacement in " + std::string(axis_names[k]) + " of the pinned point '" + name +
                                  "' is given twice",
@@ -113,13 +111,13 @@ void check_held(const Options& options, const Mesh& mesh, Location displaced, co
                        "{displacement_z: 0 m}' to 'boundary:', or 'displacement_normal: 0 m' to three sides that are "
                        "not parallel, or points to 'pinned:'";
   const PrincipalAxes shifts = principal_axes(resistance.topLeftCorner<dimension, dimension>());
-  if (shifts.values[0] <= round_off * shifts.values[dimension - 1]) {
+  if (shifts.values[0] <= rounding::same * shifts.values[dimension - 1]) {
     const std::string free = direction_text(shifts.axes.col(0));
     throw InputError(where, "nothing holds the rock along " + free,
                      "no side has a displacement in " + free + ", so that it may move freely", add);
   }
   const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(resistance);
-  if (eigenvalues[0] <= round_off * eigenvalues[motions - 1])
+  if (eigenvalues[0] <= rounding::same * eigenvalues[motions - 1])
     throw InputError(where, "nothing keeps the rock from turning",
                      "the displacements of its sides allow a small rotation about a point", add);
 }

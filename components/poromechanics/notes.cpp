@@ -10,6 +10,7 @@
 #include "components/poromechanics/loaded_rock.hpp"
 #include "components/poromechanics/start_balance.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -53,18 +54,17 @@ void note_conditions(Notes& notes, const Options& options, const Mesh& mesh, con
   const auto note = [&](const std::string& what, const Origin& where, const std::string& text) {
     notes.add(name + "." + what + " without effect", where.text() + ": " + text);
   };
-  constexpr double square = 1e-6;  // normals of a side parallel to an axis differ from the axis by rounding only
   for (const auto& [side, condition] : options.boundary)
     for (int k = 0; k < dimension; ++k) {
       const std::string direction = axis_names[k];
       for (const Stress& stress : stresses) {
         const Share& share = overridden[{side, stress.name}][k];
-        if (share.length > square * share.all)
+        if (share.length > rounding::far_above * share.all)
           note("boundary." + side + "." + stress.name + "." + direction, condition.origin,
                fmt::format("the {} component of '{}' on side '{}' has no effect (the displacement in {} is "
                            "prescribed there, which decides) remove one of the two",
                            direction, stress.name, side, direction));
-        if (share.doubled > square * share.all)
+        if (share.doubled > rounding::far_above * share.all)
           notes.add(
               name + ".boundary." + side + ": " + stress.name + " and traction",
               fmt::format("{}: '{}' and 'traction_{}' on side '{}' act in the same direction, and are added remove "

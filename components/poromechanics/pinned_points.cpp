@@ -6,6 +6,7 @@
 
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/search/point_location.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::poromechanics {
 
@@ -49,8 +50,7 @@ int pinned_node(const PinnedPoint& point, const std::string& name, const Mesh& m
   double size = 0;  // of the cells there
   for (const int cell : mesh.node_cells[nearest])
     for (const int node : mesh.cell_nodes[cell]) size = std::max(size, (mesh.nodes[node] - mesh.nodes[nearest]).norm());
-  constexpr double round_off = 1e-6;  // of a cell: a point on a side may lie beside it by as much
-  if (away(nearest) > round_off * size && PointLocation(mesh).cell_at(*point.at) == none)
+  if (away(nearest) > rounding::far_above * size && PointLocation(mesh).cell_at(*point.at) == none)
     throw InputError(point.origin, "the pinned point '" + name + "' lies outside of the rock",
                      fmt::format("the nearest node of the mesh is at {}", to_text(mesh.nodes[nearest])),
                      "move it into the rock");

@@ -4,18 +4,16 @@
 #include <utility>
 
 #include "framework/discretization/principal_axes.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
-
-constexpr double alike = 1e-11;      // radius of Mohr's circle, of the mean stress: a direction would be round-off
-constexpr double first_axis = 1e-6;  // two components that differ by less count as equal: far above round-off
 
 /// With the sign of its largest component.
 Point with_sign(const Point& direction) {
   int largest = 0;
   for (int k = 1; k < dimension; ++k)
-    if (std::abs(direction[k]) * (1 - first_axis) > std::abs(direction[largest])) largest = k;
+    if (std::abs(direction[k]) * (1 - rounding::far_above) > std::abs(direction[largest])) largest = k;
   return direction[largest] < 0 ? Point(-direction) : direction;
 }
 
@@ -26,7 +24,7 @@ PrincipalStress principal_in_plane(const SymmetricTensor& stress) {
   const double angle = 0.5 * std::atan2(stress[2], half);
   Point direction = Point::Zero();
   direction.head<2>() << -std::sin(angle), std::cos(angle);
-  if (radius <= alike * std::abs(mean)) direction.setZero();
+  if (radius <= rounding::same * std::abs(mean)) direction.setZero();
   return {mean - radius, mean + radius, with_sign(direction)};
 }
 
@@ -38,7 +36,7 @@ PrincipalStress principal_in_space(const SymmetricTensor& stress) {
   }
   const PrincipalAxes principal = principal_axes(tensor);
   const Point& values = principal.values;
-  const bool has_direction = values[1] - values[0] > 2 * alike * values.cwiseAbs().maxCoeff();
+  const bool has_direction = values[1] - values[0] > 2 * rounding::same * values.cwiseAbs().maxCoeff();
   return {values[0], values[dimension - 1], has_direction ? with_sign(principal.axes.col(0)) : Point(Point::Zero())};
 }
 

@@ -7,6 +7,7 @@
 #include "components/poromechanics/rock.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/cell_sums.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/parallel/parallel.hpp"
@@ -45,10 +46,8 @@ void Rock::map_walls() {
           if (owned) jumps.emplace_back(column, row, -sign * axes(k, axis));
         }
   }
-  wall_forces_.resize(dimension * mesh_.face_count(), dimension * mesh_.fracture_cell_count());
-  wall_forces_.setFromTriplets(forces.begin(), forces.end());
-  wall_jump_.resize(dimension * mesh_.fracture_cell_count(), dimension * mesh_.face_count());
-  wall_jump_.setFromTriplets(jumps.begin(), jumps.end());
+  wall_forces_ = matrix_of(dimension * mesh_.face_count(), dimension * mesh_.fracture_cell_count(), forces);
+  wall_jump_ = matrix_of(dimension * mesh_.fracture_cell_count(), dimension * mesh_.face_count(), jumps);
 }
 
 void Rock::find_conditions() {

@@ -9,11 +9,19 @@
 
 #include "components/poromechanics/check_conditions.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/noticeable.hpp"
 
 namespace sprekk::poromechanics {
 namespace {
 
 constexpr double mega = 1e6;
+
+/// What acts on rock at a place and is balanced by nothing before the rock deforms.
+struct Imbalance {
+  double stress = 0;         ///< Pa
+  Point at = Point::Zero();  ///< where it is largest
+  std::string because;       ///< what does not fit what, with figures
+};
 
 /// The data at the start, with the initial stress and the weight times a sign each.
 class Start {
@@ -126,23 +134,18 @@ class Start {
 
 }  // namespace
 
-Imbalance start_imbalance(const Options& options, const Mesh& mesh, double time) {
-  return Start(options, mesh, time).largest();
-}
-
 void note_start_imbalance(Notes& notes, const Options& options, const Mesh& mesh, const std::string& name,
                           double time) {
   const bool has_weight = !options.rock_density.is_zero() && !options.gravity.is_zero();
   if (options.initial_stress.is_zero() && !has_weight) return;
-  constexpr double small = 1e-2;  // of the largest stress: rounded densities and depths
   const Start start(options, mesh, time);
   const Imbalance worst = start.largest();
   const double scale = start.largest_stress();
-  if (worst.stress <= small * scale) return;
+  if (worst.stress <= noticeable * scale) return;
   std::string remedy =
       "let 'start: settle' find the equilibrium, or give an initial_stress that balances weight and sides";
   const auto would_fit = [&](double stress_sign, double weight_sign) {
-    return Start(options, mesh, time, stress_sign, weight_sign).largest().stress <= small * scale;
+    return Start(options, mesh, time, stress_sign, weight_sign).largest().stress <= noticeable * scale;
   };
   if (!options.initial_stress.is_zero() && would_fit(-1, 1))
     remedy = "give initial_stress the other sign (compression is negative)";

@@ -7,12 +7,12 @@
 
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
+#include "framework/round_off.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::wells {
 namespace {
-
-constexpr double rounding = 1e-6;  // of the pressure at the start: far above round-off
 
 std::vector<std::string> names_of(const Options& options, const Origin& origin) {
   if (options.wells.empty())
@@ -86,8 +86,7 @@ LimitedWells::LimitedWells(const ComponentContext& context, const Options& optio
       scale_of_rates_(Vector::Ones(count())) {
   std::vector<Triplet> ones;
   for (std::size_t k = 0; k < places_.size(); ++k) ones.emplace_back(places_[k].well, static_cast<int>(k), 1.0);
-  of_places_.resize(count(), static_cast<int>(places_.size()));
-  of_places_.setFromTriplets(ones.begin(), ones.end());
+  of_places_ = matrix_of(count(), static_cast<int>(places_.size()), ones);
   evaluate_data({context.start_time, 0, context.start_time});
 }
 
@@ -234,7 +233,7 @@ void LimitedWells::note_step(Notes& notes, const StepTime&) const {
                             names_[w], now_[w].rate > 0 ? "inject" : "extract"));
   // As for the rock: pressures that begin above zero are absolute, and others may be relative to any reference.
   for (int w = 0; w < count(); ++w)
-    if (const double pressure = pressure_.now()[w]; at_start_[w] > 0 && pressure < -rounding * at_start_[w])
+    if (const double pressure = pressure_.now()[w]; at_start_[w] > 0 && pressure < -rounding::far_above * at_start_[w])
       notes.add(
           name() + "." + names_[w] + " below zero",
           fmt::format("the pressure in well '{}' falls to {:.3g} Pa (around it it began at {:.3g} Pa, and no fluid "

@@ -11,10 +11,9 @@
 #include "components/capabilities/one_place.hpp"
 #include "framework/assembly/state_fields.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/noticeable.hpp"
 
 namespace sprekk::couplers {
-
-constexpr double rounding_of_aperture = 1e-2;  // of the larger one of two that are to be the same
 
 Advection::Advection(const CouplerContext& context, const Carried& carried, const AdvectionOptions& options,
                      MatrixCarried* in_rock, FractureCarried* in_fractures)
@@ -87,7 +86,7 @@ void Advection::compare_apertures(const CouplerContext& context) {
   const Vector* of_carried = in_fractures_->thickness();
   if (!fluid || !of_carried) return;
   const Vector& of_fluid = fluid->initial_aperture();
-  double worst = rounding_of_aperture;
+  double worst = noticeable;
   for (int i = 0; i < of_carried->size(); ++i) {
     const double larger = std::max(of_fluid[i], (*of_carried)[i]),
                  difference = std::abs(of_fluid[i] - (*of_carried)[i]);

@@ -9,6 +9,7 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 
 namespace sprekk::couplers {
 namespace {
@@ -138,9 +139,7 @@ void Advection::add(Assembly& assembly, const FluidContents& place, const std::v
   BalanceRows(assembly, unknown).add_throughput(through_sides);
   if (!assembly.wants_derivatives()) return;
   const auto block = [&](const std::vector<Triplet>& entries, int columns) {
-    SparseMatrix matrix(unknown.size(), columns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
+    return matrix_of(unknown.size(), columns, entries);
   };
   Vector slope =
       without_round_off(capacity, place.location == Location::cell ? in_rock_->capacity() : in_fractures_->capacity());

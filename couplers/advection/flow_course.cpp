@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::couplers {
 namespace {
@@ -29,9 +30,8 @@ void add_to(std::vector<FluidSource>& sums, const std::vector<FluidSource>& sour
 }  // namespace
 
 double FlowCourse::shared(const Part& part, const StepTime& step) {
-  constexpr double rounding = 1e-6;  // of the shorter one: substeps end where the next ones begin
   const double length = std::min(part.to, step.end) - std::max(part.from, step.start);
-  return length > rounding * std::min(part.to - part.from, step.dt) ? length : 0;
+  return length > rounding::far_above * std::min(part.to - part.from, step.dt) ? length : 0;
 }
 
 void FlowCourse::add(const StepTime& part, FluidRates rates) {

@@ -10,13 +10,13 @@
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
+#include "framework/noticeable.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::couplers {
 namespace {
 
 constexpr double round_off_of_fluxes = 1e-14;  // of the products whose sum a flux is, for all fluxes of a cell
-constexpr double small_part = 1e-9;            // of what flows through a cell
-constexpr double noticeable_capacity = 1e-2;   // of that of a cell
 
 }  // namespace
 
@@ -77,8 +77,8 @@ void FluidContents::count(const std::vector<Stream>& streams, const std::vector<
   // In long steps the round-off of what flows through a cell would pass for many times the fluid that it holds.
   const auto is_noise = [&](int i) {
     const double rate = std::abs(net[i]);
-    return rate <= round_off_of_fluxes * base && rate <= small_part * gross[i] && capacity.size() == net.size() &&
-           per_volume_ * dt * rate > noticeable_capacity * capacity[i];
+    return rate <= round_off_of_fluxes * base && rate <= rounding::same * gross[i] && capacity.size() == net.size() &&
+           per_volume_ * dt * rate > noticeable * capacity[i];
   };
   for (int i = 0; i < fluid.size(); ++i)
     if (!is_noise(i)) fluid[i] += dt * net[i];

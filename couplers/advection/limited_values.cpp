@@ -6,13 +6,13 @@
 
 #include "framework/field/ownership.hpp"
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::couplers {
 namespace {
 
 // Smallest over largest eigenvalue of the moments of directions to neighbours (1 where these lie evenly around).
 constexpr double hardly_apart = 1e-2;  // below it more neighbours are taken
-constexpr double in_a_row = 1e-8;      // below it the gradient has no component in that direction
 
 // Of the rise and the fall around a cell of a fracture (minmod in a row of equal cells): where fluid passes many cells
 // in a step, Newton's method does not always converge with the whole.
@@ -42,7 +42,8 @@ void fit_gradients(Links& links) {
   for (int k = 0; k < dimension; ++k) {
     const double size = moments.eigenvalues()[k];
     const Point axis = moments.eigenvectors().col(k);
-    if (size > in_a_row * moments.eigenvalues()[dimension - 1]) inverse += axis * axis.transpose() / size;
+    if (size > rounding::half_of_digits * moments.eigenvalues()[dimension - 1])
+      inverse += axis * axis.transpose() / size;
   }
   for (auto& link : links) link.gradient = inverse * link.where / link.where.squaredNorm();
 }

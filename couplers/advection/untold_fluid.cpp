@@ -6,14 +6,9 @@
 #include "couplers/advection/advection.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::couplers {
-namespace {
-
-constexpr double noticeable_part = 1e-6;  // of what passes all sides: less is round-off
-
-}  // namespace
-
 void Advection::note_untold_fluid(Notes& notes) const {
   const int sides = static_cast<int>(mesh_.side_names.size());
   Vector into_rock = Vector::Zero(sides), into_fractures = into_rock;
@@ -44,7 +39,7 @@ void Advection::note_untold_fluid(Notes& notes) const {
   const auto note = [&](const Field& value, const std::string& where, int side, double rate, bool is_told_beside) {
     // Fluid without a given concentration has no tracer. Without a given temperature it has that of the cell, and there
     // is a note only if the rock beside the fracture has a given one.
-    if (rate <= noticeable_part * through_all || (!carried_.of_unknown_fluid && !is_told_beside)) return;
+    if (rate <= rounding::far_above * through_all || (!carried_.of_unknown_fluid && !is_told_beside)) return;
     const std::string has = carried_.of_unknown_fluid ? "it has no " + carried_.quantity
                                                       : "it has the " + carried_.value + " of the cell that it enters";
     const std::string& owner = value.spec().owner;

@@ -9,11 +9,10 @@
 #include "framework/config/input_error.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::couplers {
 namespace {
-
-constexpr double noticeable_part_of_rates = 1e-6;  // of the largest of all rates of wells: less is round-off
 
 /// A cell to which a well is open at one of its places, with its share of the rate there and with its value.
 struct Opening {
@@ -111,7 +110,7 @@ void ValuesOfWells::note(const std::string& coupler, Notes& notes) const {
   for (std::size_t k = 0; k < wells->places().size(); ++k)
     if (is_known(wells->surroundings()[k])) net[wells->places()[k].well] += rates[static_cast<int>(k)];
   for (int well = 0; well < net.size(); ++well)
-    if (!injected[well] && net[well] > noticeable_part_of_rates * rates.lpNorm<Eigen::Infinity>())
+    if (!injected[well] && net[well] > rounding::far_above * rates.lpNorm<Eigen::Infinity>())
       notes.add(coupler + ": fluid of " + wells->names()[well] + " without a " + carried->value,
                 fmt::format("well '{}' injects {:.3g} {} of fluid that has no {} (it enters with that of "
                             "what flows into the well elsewhere, or of the cell) give one under 'injected' of {}",

@@ -20,6 +20,7 @@
 #include "framework/discretization/principal_axes.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/search/point_location.hpp"
@@ -174,9 +175,7 @@ class WellExchange : public Coupler, public FollowsMesh {
   int count() const { return static_cast<int>(places_.size()); }
 
   static Operator operator_of(const std::vector<Triplet>& entries, int rows, int columns) {
-    SparseMatrix matrix(rows, columns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return Operator(std::move(matrix));
+    return Operator(matrix_of(rows, columns, entries));
   }
   Operator operator_of(const std::vector<Triplet>& entries, int columns) const {
     return operator_of(entries, count(), columns);
@@ -220,9 +219,8 @@ class WellExchange : public Coupler, public FollowsMesh {
       for (const auto& [cell, by] : rise.by_aperture) by_aperture.emplace_back(k, cell, by * wells_.rate().now()[k]);
     }
     if (by_aperture.empty() || !assembly.wants_derivatives()) return;
-    SparseMatrix matrix(count(), mesh_.fracture_cell_count());
-    matrix.setFromTriplets(by_aperture.begin(), by_aperture.end());
-    assembly.derivative(wells_.rate(), fracture_->aperture(), std::move(matrix));
+    assembly.derivative(wells_.rate(), fracture_->aperture(),
+                        matrix_of(count(), mesh_.fracture_cell_count(), by_aperture));
   }
 
   void supply(Assembly& assembly, const Field& pressure, const Operator& into, double dt) const {

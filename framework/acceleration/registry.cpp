@@ -1,8 +1,6 @@
 #include "framework/acceleration/registry.hpp"
 
-#include <algorithm>
-
-#include "framework/plugin/plugin.hpp"
+#include "framework/plugin/insert_by_name.hpp"
 
 namespace sprekk {
 
@@ -11,12 +9,7 @@ AcceleratorRegistry& AcceleratorRegistry::instance() {
   return registry;
 }
 
-void AcceleratorRegistry::add(Type type) {
-  const auto place = std::ranges::lower_bound(types_, type.name, {}, &Type::name);
-  if (place != types_.end() && place->name == type.name) return refuse_registration(type.name);
-  note_registration(type.name);
-  types_.insert(place, std::move(type));
-}
+void AcceleratorRegistry::add(Type type) { insert_by_name(types_, std::move(type), &Type::name); }
 
 Spec AccelerationOptions::spec() {
   Spec spec("accelerate", "Acceleration of the fixed-point iteration, by one of the accelerators.");

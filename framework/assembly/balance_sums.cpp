@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -133,10 +133,9 @@ SumRow sum_of_rows(const Assembly& assembly, const Balances::Quantity& quantity,
       totals[columns[k]].size += values[2 * k + 1];
     }
   }
-  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of summed terms
   SumRow sum;
   for (const auto& [column, total] : totals) {
-    if (std::abs(total.value) <= round_off * total.size) continue;  // terms that cancel give no entry
+    if (std::abs(total.value) <= rounding::of_sum * total.size) continue;  // terms that cancel give no entry
     sum.columns.push_back(column);
     sum.values.push_back(total.value);
   }

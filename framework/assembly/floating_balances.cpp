@@ -7,11 +7,10 @@
 #include "framework/invariants.hpp"
 #include "framework/joined_sets.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-constexpr double cancels = 1e-13;  ///< of the terms of a row that is a difference, what is left of it
 
 /// A sum of entries, and that of their absolute values.
 struct Sum {
@@ -20,7 +19,7 @@ struct Sum {
     value += entry;
     size += std::abs(entry);
   }
-  bool is_difference() const { return std::abs(value) <= cancels * size; }
+  bool is_difference() const { return std::abs(value) <= rounding::of_terms * size; }
 };
 
 void join_with_other_processes(JoinedSets& sets, int count) {

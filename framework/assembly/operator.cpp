@@ -8,6 +8,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -16,14 +17,13 @@ namespace {
 /// part of the rows.
 [[maybe_unused]] bool columns_add_up_alike(const SparseMatrix& a, const SparseMatrix& b) {
   if (parallel::size() > 1) return true;
-  constexpr double round_off = 1e-9;  // what an assertion allows, far above rounding
   Vector difference = Vector::Zero(a.cols()), size = Vector::Zero(a.cols());
   for (const auto& [matrix, sign] : {std::pair(&a, 1.0), std::pair(&b, -1.0)})
     for (int k = 0; k < matrix->nonZeros(); ++k) {
       difference[matrix->innerIndexPtr()[k]] += sign * matrix->valuePtr()[k];
       size[matrix->innerIndexPtr()[k]] += std::abs(matrix->valuePtr()[k]);
     }
-  return (difference.array().abs() <= round_off * size.array()).all();
+  return (difference.array().abs() <= rounding::same * size.array()).all();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 
@@ -13,8 +14,7 @@ double time_in_step(const Data& data, const StepTime& step) {
   SPREKK_ASSERT(std::is_sorted(data.switch_times().begin(), data.switch_times().end()));
   const std::vector<double>& jumps = data.switch_times();
   // The end of a step and a jump at that time may differ by round-off.
-  constexpr double rounding = 1e-9;  // of a step: times are sums of steps
-  const double tolerance = rounding * step.dt;
+  const double tolerance = rounding::same * step.dt;
   const auto jump = std::lower_bound(jumps.begin(), jumps.end(), step.end - tolerance);
   const bool jumps_at_end = step.dt > 0 && jump != jumps.end() && *jump <= step.end + tolerance;
   return jumps_at_end ? std::nextafter(std::min(*jump, step.end), -std::numeric_limits<double>::infinity()) : step.end;

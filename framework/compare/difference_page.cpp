@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "framework/compare/difference_tables.hpp"
 #include "framework/compare/scale.hpp"
+#include "framework/no_value.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/picture/display_unit.hpp"
 #include "framework/picture/history_panel.hpp"
@@ -15,7 +15,6 @@ namespace sprekk {
 namespace {
 
 constexpr std::size_t most_panels = 36;
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 std::string heading(const RunDifference& difference) {
   return "<h3>" + escaped_markup(difference.other->name + " against " + difference.run->name) + "</h3>\n";
@@ -88,8 +87,8 @@ std::string lines(const std::vector<RunDifference>& differences) {
     Curve curve{run.name, {}, {}, line_style(static_cast<int>(panel.curves.size()))};
     for (const Polyline& line : polylines_at(run, time))
       for (const auto& [a, b] : line.segments) {
-        curve.x.insert(curve.x.end(), {a[0], b[0], nothing});
-        curve.y.insert(curve.y.end(), {a[1], b[1], nothing});
+        curve.x.insert(curve.x.end(), {a[0], b[0], no_value});
+        curve.y.insert(curve.y.end(), {a[1], b[1], no_value});
       }
     if (curve.x.empty()) return;
     if (!panel.curves.empty()) curve.style.dash = "6 4";

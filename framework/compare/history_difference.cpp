@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "framework/compare/scale.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-constexpr double same_time = 1e-9;  // relative difference of two times: as for steps
 
 /// Whether a column describes the time steps, not results.
 bool tells_of_steps(const std::string& column) {
@@ -19,7 +18,7 @@ bool tells_of_steps(const std::string& column) {
 }
 
 bool nearly_same(double time, double other) {
-  return std::abs(time - other) <= same_time * std::max(std::abs(time), std::abs(other));
+  return std::abs(time - other) <= rounding::same * std::max(std::abs(time), std::abs(other));
 }
 
 /// A column against time.
@@ -51,7 +50,7 @@ class TimeCurve {
  private:
   /// The first row that is not before `time`.
   std::size_t row_from(double time) const {
-    const double tolerated = time - same_time * std::abs(time);
+    const double tolerated = time - rounding::same * std::abs(time);
     return static_cast<std::size_t>(std::lower_bound(times_.begin(), times_.end(), tolerated) - times_.begin());
   }
 

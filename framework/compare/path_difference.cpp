@@ -5,14 +5,14 @@
 #include <limits>
 #include <map>
 
+#include "framework/round_off.hpp"
+
 namespace sprekk {
 namespace {
 
 // Distances are measured at the corners of a line and between them: a segment's farthest point is a corner, or a point
 // that is equally near to two segments of the other line.
 constexpr int points_between = 7;
-constexpr double round_off = 1e-13;  // of a distance, over the length of the lines
-constexpr double at_the_end = 1e-9;  // of the length of a segment: far above round-off of points
 
 double apart(const Position& a, const Position& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
@@ -39,7 +39,7 @@ Nearest nearest(const Position& place, const Polyline& line, const std::map<Posi
     const double distance = apart(place, {a[0] + share * x, a[1] + share * y});
     if (!(distance < best.distance)) continue;
     const bool is_beyond_end =
-        (along <= at_the_end && count.at(a) == 1) || (along >= 1 - at_the_end && count.at(b) == 1);
+        (along <= rounding::same && count.at(a) == 1) || (along >= 1 - rounding::same && count.at(b) == 1);
     best = {distance, is_beyond_end};
   }
   return best;
@@ -94,7 +94,7 @@ PathDifference path_difference(const Polyline& one, const Polyline& other) {
   PathDifference difference;
   difference.scale = std::max(one.length(), other.length());
   const auto rounded = [&](double distance) {
-    return std::abs(distance) > round_off * difference.scale ? distance : 0;
+    return std::abs(distance) > rounding::of_terms * difference.scale ? distance : 0;
   };
   difference.there = rounded(there.largest);
   difference.back = rounded(back.largest);

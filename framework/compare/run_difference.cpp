@@ -13,15 +13,14 @@
 #include "framework/picture/display_unit.hpp"
 #include "framework/report/fracture_names.hpp"
 #include "framework/results/results_dimension.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
-constexpr double same_instant = 1e-9;  // relative difference of two times: as for steps
-
 const Snapshot* written_at(const std::vector<Snapshot>& all, double time) {
   for (const Snapshot& snapshot : all)
-    if (std::abs(snapshot.time - time) <= same_instant * std::max(std::abs(time), std::abs(snapshot.time)))
+    if (std::abs(snapshot.time - time) <= rounding::same * std::max(std::abs(time), std::abs(snapshot.time)))
       return &snapshot;
   return nullptr;
 }
@@ -86,7 +85,7 @@ void compare_histories(RunDifference& difference) {
   if (times.empty() || others.empty()) return;
   if (difference.time.first > difference.time.last)
     difference.remarks.push_back("the histories have no time in common");
-  else if (std::abs(times.back() - others.back()) > same_instant * std::max(times.back(), others.back()))
+  else if (std::abs(times.back() - others.back()) > rounding::same * std::max(times.back(), others.back()))
     difference.remarks.push_back(fmt::format(
         "compared until {}: {} ends at {}, {} at {}", duration_text(difference.time.last), difference.run->name,
         duration_text(times.back()), difference.other->name, duration_text(others.back())));

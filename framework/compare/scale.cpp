@@ -6,14 +6,9 @@
 #include <limits>
 
 #include "framework/picture/display_unit.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
-namespace {
-
-constexpr double hardly_varies = 1e-6;  // range over size: ten digits above round-off
-
-}  // namespace
-
 void ValueRange::add(double value) {
   if (!std::isfinite(value)) return;
   low_ = is_empty_ ? value : std::min(low_, value);
@@ -29,7 +24,7 @@ void ValueRange::add(const ValueRange& other) {
 
 double ValueRange::size() const { return std::max(std::abs(low_), std::abs(high_)); }
 
-double scale_of(double width, double size) { return width >= hardly_varies * size ? width : size; }
+double scale_of(double width, double size) { return width >= rounding::far_above * size ? width : size; }
 
 std::string scale_family(const std::string& column) {
   static const std::array<const char*, 17> endings = {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -10,6 +9,7 @@
 #include "framework/config/expression.hpp"
 #include "framework/config/quantity_scale.hpp"
 #include "framework/config/unknown_key.hpp"
+#include "framework/name_pattern.hpp"
 
 namespace sprekk {
 namespace {
@@ -44,19 +44,13 @@ Data in_si(const ColumnValue& given, const DataRequest& request) {
   return within_range(Data(given.value * scale), given.where, request);
 }
 
-/// "joints_" for "joints_*", which stands for all names that begin with it; nothing for a plain name.
-std::optional<std::string> beginning_of(const std::string& key) {
-  if (key.size() < 2 || key.back() != '*') return std::nullopt;
-  return key.substr(0, key.size() - 1);
-}
-
 /// The entries of a map of values by name, found without a walk through all of them: there may be thousands.
 class ValuesOf {
  public:
   ValuesOf(const Node& map, const DataRequest& request) : request_(request) {
     for (const Node::Entry& entry : map.entries) {
       own_.emplace(entry.key, &entry.value);
-      if (beginning_of(entry.key)) beginnings_.push_back(&entry);
+      if (is_beginning(entry.key)) beginnings_.push_back(&entry);
     }
   }
 
@@ -65,7 +59,7 @@ class ValuesOf {
     if (const auto own = own_.find(name); own != own_.end()) return own->second;
     const Node::Entry* found = nullptr;
     for (const Node::Entry* entry : beginnings_) {
-      if (!name.starts_with(*beginning_of(entry->key))) continue;
+      if (!stands_for(entry->key, name)) continue;
       if (found)
         throw InputError(entry->origin, fmt::format("{} has two values for {}", quoted(request_.name), quoted(name)),
                          fmt::format("{} and {} both stand for it", quoted(found->key), quoted(entry->key)),
@@ -86,10 +80,9 @@ class ValuesOf {
 void require_known_names(const Node& map, const NamedPlaces& places, const std::vector<std::string>& names) {
   const std::unordered_set<std::string> known(names.begin(), names.end());
   for (const Node::Entry& entry : map.entries) {
-    const auto beginning = beginning_of(entry.key);
     const bool is_known = entry.key == "default" || known.count(entry.key) > 0 ||
-                          (beginning && std::ranges::any_of(names, [&](const std::string& name) {
-                             return name.starts_with(*beginning);
+                          (is_beginning(entry.key) && std::ranges::any_of(names, [&](const std::string& name) {
+                             return stands_for(entry.key, name);
                            }));
     if (!is_known) throw unknown_key(entry.origin, places.one, entry.key, names);
   }
@@ -97,10 +90,7 @@ void require_known_names(const Node& map, const NamedPlaces& places, const std::
 
 /// Whether a component that lives in places of these names, everywhere if there are none, lives in this one.
 bool lives_in(const std::vector<std::string>& own, const std::string& name) {
-  return own.empty() || std::ranges::any_of(own, [&](const std::string& one) {
-           const auto beginning = beginning_of(one);
-           return beginning ? name.starts_with(*beginning) : one == name;
-         });
+  return own.empty() || std::ranges::any_of(own, [&](const std::string& one) { return stands_for(one, name); });
 }
 
 }  // namespace

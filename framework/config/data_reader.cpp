@@ -11,6 +11,7 @@
 #include "framework/config/table.hpp"
 #include "framework/config/units.hpp"
 #include "framework/config/unknown_key.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -216,7 +217,6 @@ namespace {
 /// bounds, and from the values of `data` at other places and times.
 std::optional<double> left_by_roundoff(double value, const Range& range, const Data& data, const Place& place) {
   // Of the largest value of a datum, thousands of roundings: such a value is the bound.
-  constexpr double roundoff = 1e-12;
   const bool is_below = value <= range.low;
   const double bound = is_below ? range.low : range.high;
   if (!std::isfinite(value) || !std::isfinite(bound) || !(is_below ? range.low_allowed : range.high_allowed))
@@ -237,7 +237,7 @@ std::optional<double> left_by_roundoff(double value, const Range& range, const D
         // It has no value there.
       }
     }
-  return std::abs(value - bound) <= roundoff * scale ? std::optional(bound) : std::nullopt;
+  return std::abs(value - bound) <= rounding::of_terms * scale ? std::optional(bound) : std::nullopt;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "framework/config/unit.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -46,9 +47,8 @@ const std::array<NamedDimension, 27> named_dimensions = {{
 }  // namespace
 
 bool Dimension::operator==(const Dimension& other) const {
-  constexpr double rounding = 1e-9;  // powers are simple fractions, maybe computed: round-off of a few operations
   for (std::size_t i = 0; i < exponents.size(); ++i) {
-    if (!(std::abs(exponents[i] - other.exponents[i]) < rounding)) return false;
+    if (!(std::abs(exponents[i] - other.exponents[i]) < rounding::same)) return false;
   }
   return true;
 }

@@ -12,6 +12,7 @@
 #include "framework/config/unknown_key.hpp"
 #include "framework/formula/jumps.hpp"
 #include "framework/formula/parser.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -194,11 +195,10 @@ struct Resized {
   /// Whether its values change as those of a quantity with this dimension, with places and times as plain numbers or
   /// with units.
   bool has_dimension(const Dimension& dimension, bool has_length, bool has_time) const {
-    constexpr double rounding = 1e-9;  // powers of units after a few operations
     for (const auto& [first, value] : values(has_length, has_time)) {
       const double expected = in_sizes(dimension, sizes) * first;
       if (!std::isfinite(expected) || !std::isfinite(value)) continue;
-      if (std::abs(value - expected) > rounding * std::max(std::abs(value), std::abs(expected))) return false;
+      if (std::abs(value - expected) > rounding::same * std::max(std::abs(value), std::abs(expected))) return false;
     }
     return true;
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/round_off.hpp"
+
 namespace sprekk {
 namespace {
 
@@ -11,7 +13,6 @@ constexpr double fine_level = 0.5;  // of the middle one: halving is usual for R
 constexpr double least_order = 0.5, most_order = 2;  // that are trusted: methods here are of second order at most
 constexpr double safety = 1.5;                       // factor on an extrapolation with an observed order
 constexpr double cancelled = 0.25;                   // share of the errors that counts where they cancel one another
-constexpr double round_off = 1e-9;                   // of a value: the error of the solvers
 
 }  // namespace
 
@@ -20,7 +21,7 @@ double ParameterError::at(double factor) const { return error * std::pow(factor 
 ParameterError parameter_error(double coarse, double middle, double fine, double scale) {
   ParameterError found;
   const double first = middle - coarse, second = fine - middle;
-  if (std::max(std::abs(first), std::abs(second)) <= round_off * scale) {
+  if (std::max(std::abs(first), std::abs(second)) <= rounding::same * scale) {
     found.is_zero = true;
     found.order = 1;
     return found;

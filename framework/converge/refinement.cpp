@@ -7,11 +7,10 @@
 #include <cstdlib>
 
 #include "framework/config/input_error.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-constexpr double one_step = 1e-9;  // of the step: a run of one step
 
 const Scene::Resolved* resolved(const Scene& scene, const std::string& path) {
   for (const Scene::Resolved& value : scene.resolved)
@@ -91,7 +90,7 @@ std::vector<Refinement> refinements(const Scene& scene, const std::vector<std::s
                                  {"step", {}},
                                  of_ending(scene, "fine level", ".mesh_ratio", 1),
                                  of_ending(scene, "increment", ".growth.increment", 0)};
-  if (scene.time.end - scene.time.start > scene.time.step * (1 + one_step) || !chosen.empty()) {
+  if (scene.time.end - scene.time.start > scene.time.step * (1 + rounding::same) || !chosen.empty()) {
     add(scene, "time.step", all[1]);
     add(scene, "time.adaptive.largest", all[1]);
   }

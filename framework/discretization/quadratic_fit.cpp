@@ -10,6 +10,7 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/corner_weights.hpp"
 #include "framework/mesh/search/distances.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -17,9 +18,6 @@ namespace {
 constexpr int coefficients = (dimension + 1) * (dimension + 2) / 2;
 // A monomial is left out where, at the cells, less than this share of it is independent of those before it.
 constexpr double independent = 0.1;
-// Tolerance, in half lengths of a fracture cell, for a line that crosses it at its end: lines between centres of
-// rectangles pass through nodes.
-constexpr double grazes = 1e-6;
 
 /// Whether the line from one point to another crosses a fracture cell.
 bool crosses(const Mesh& mesh, int cell, const Point& from, const Point& to) {
@@ -28,8 +26,9 @@ bool crosses(const Mesh& mesh, int cell, const Point& from, const Point& to) {
                after = (to - fracture.center).dot(fracture.normal);
   if (before * after >= 0) return false;
   const Point crossing = from + (to - from) * (before / (before - after));
-  if (dimension == 2) return (crossing - fracture.center).norm() <= fracture.measure / 2 * (1 + grazes);
-  return distance_to_fracture_cell(mesh, cell, crossing) <= fracture.size() / 2 * grazes;
+  // With room, since lines between centres of rectangles pass through nodes.
+  if (dimension == 2) return (crossing - fracture.center).norm() <= fracture.measure / 2 * (1 + rounding::far_above);
+  return distance_to_fracture_cell(mesh, cell, crossing) <= fracture.size() / 2 * rounding::far_above;
 }
 
 /// Adds the cells that share a node with one of `cells`, are of the region of `home`, and are seen from its centre.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 
 namespace sprekk {
 namespace {
@@ -53,9 +54,7 @@ SparseMatrix cells_to_nodes(const Mesh& mesh) {
       entries.emplace_back(node, cells[k], inverse(0, column) * roots[column]);
     }
   }
-  SparseMatrix weights(mesh.node_count(), mesh.cell_count());
-  weights.setFromTriplets(entries.begin(), entries.end());
-  return weights;
+  return matrix_of(mesh.node_count(), mesh.cell_count(), entries);
 }
 
 }  // namespace sprekk

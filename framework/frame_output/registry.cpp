@@ -1,8 +1,6 @@
 #include "framework/frame_output/registry.hpp"
 
-#include <algorithm>
-
-#include "framework/plugin/plugin.hpp"
+#include "framework/plugin/insert_by_name.hpp"
 
 namespace sprekk {
 
@@ -11,11 +9,6 @@ FrameOutputRegistry& FrameOutputRegistry::instance() {
   return registry;
 }
 
-void FrameOutputRegistry::add(Type type) {
-  const auto place = std::ranges::lower_bound(types_, type.name, {}, &Type::name);
-  if (place != types_.end() && place->name == type.name) return refuse_registration(type.name);
-  note_registration(type.name);
-  types_.insert(place, std::move(type));
-}
+void FrameOutputRegistry::add(Type type) { insert_by_name(types_, std::move(type), &Type::name); }
 
 }  // namespace sprekk

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "framework/dense/general_eigen.hpp"
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -25,10 +27,9 @@ bool apply_inverse(LinearSolver& solver, const std::vector<int>& rows, const Con
 
 /// A vector that is orthogonal to no smooth one, the same in each run.
 Vector first_vector(Eigen::Index size) {
-  constexpr double golden_ratio = 0.6180339887498949;  // its multiples repeat nowhere
   Vector v(size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    const double turns = static_cast<double>(i + 1) * golden_ratio;
+    const double turns = static_cast<double>(i + 1) * (std::numbers::phi - 1);  // repeat nowhere
     v[i] = 0.5 + turns - std::floor(turns);
   }
   return v.normalized();
@@ -55,7 +56,6 @@ class Arnoldi {
 
   /// One vector more. False where the solver fails.
   bool extend() {
-    constexpr double invariant = 1e-12;  // what is left of a vector in an invariant subspace: some thousand roundings
     if (used_ > 0) {
       hessenberg_(used_, used_ - 1) = left_;
       basis_.col(used_) = next_ / left_;
@@ -69,7 +69,7 @@ class Arnoldi {
     }
     left_ = next_.norm();
     ++used_;
-    is_invariant_ = left_ <= invariant * length || used_ == n_;
+    is_invariant_ = left_ <= rounding::of_terms * length || used_ == n_;
     if (is_invariant_) left_ = 0;
     return true;
   }

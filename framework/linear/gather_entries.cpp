@@ -1,5 +1,6 @@
 #include "framework/linear/gather_entries.hpp"
 
+#include "framework/matrix_of.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -18,9 +19,7 @@ SparseMatrix gather_entries(const std::vector<Triplet>& entries, int rows, int c
   std::vector<Triplet> gathered;
   gathered.reserve(values.size());
   for (std::size_t k = 0; k < values.size(); ++k) gathered.emplace_back(row_of[k], column_of[k], values[k]);
-  SparseMatrix all(rows, columns);
-  all.setFromTriplets(gathered.begin(), gathered.end());
-  return all;
+  return matrix_of(rows, columns, gathered);
 }
 
 }  // namespace sprekk

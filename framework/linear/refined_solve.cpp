@@ -8,6 +8,7 @@
 #include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/gathered.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -40,9 +41,8 @@ double componentwise_backward_error(const SparseMatrix& a, const Vector& y, cons
 LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scaled, const Vector& b_rows,
                            const std::function<void(Vector&)>& apply_inverse, Vector& x) {
   constexpr int refinements = 3;  // steps, at most
-  // Some hundred roundings; six digits above round-off; no solution at all.
-  constexpr double accurate = 1e-13, acceptable = 1e-10, useless = 0.3;
-  constexpr double hardly_better = 0.5;  // of the error before: a smaller gain ends the refinement
+  // Six digits above round-off; no solution at all.
+  constexpr double acceptable = 1e-10, useless = 0.3;
   SPREKK_EXPECT(b_rows.size() == scaled.matrix.rows(), b_rows.size(), scaled.matrix.rows());
   SPREKK_EXPECT(scaled.row_scale.size() == b_rows.size(), scaled.row_scale.size(), b_rows.size());
   SPREKK_EXPECT(scaled.column_scale.size() == scaled.matrix.cols(), scaled.column_scale.size(), scaled.matrix.cols());
@@ -67,12 +67,12 @@ LinearReport refined_solve(const LinearSystem& system, const Equilibrated& scale
   Vector y = whole_solution(b);
   Vector r = b - a * y;
   double error = componentwise_backward_error(a, y, b, r);
-  for (int step = 0; step < refinements && error > accurate; ++step) {
+  for (int step = 0; step < refinements && error > rounding::of_terms; ++step) {
     const Vector candidate = whole_solution(r) + y;
     Vector r_candidate = b - a * candidate;
     const double candidate_error = componentwise_backward_error(a, candidate, b, r_candidate);
     if (!(candidate_error < error)) break;
-    const bool stalls = candidate_error > hardly_better * error;
+    const bool stalls = candidate_error > 0.5 * error;
     y = candidate;
     r = std::move(r_candidate);
     error = candidate_error;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "framework/round_off.hpp"
+
 namespace sprekk {
 
 double far_size(const Geometry& geometry, const MeshOptions& options) {
@@ -40,9 +42,6 @@ double extent_of(const FractureGeometry& fracture) {
   return extent;
 }
 
-double point_tolerance(const Box& box) {
-  constexpr double same_point = 1e-9;  // of the diagonal: round-off of coordinates
-  return same_point * box.size().norm();
-}
+double point_tolerance(const Box& box) { return rounding::same * box.size().norm(); }
 
 }  // namespace sprekk

@@ -18,6 +18,7 @@
 #include "framework/meshing/conforming/require_conforming.hpp"
 #include "framework/meshing/geometry.hpp"
 #include "framework/meshing/msh_file.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -69,8 +70,7 @@ class MshReader {
     }
     const double extent = (high - low).norm();
     if (extent < smallest_extent) throw InputError("all nodes are at one place (their distance is below 1e-12 m)");
-    constexpr double flat = 1e-9;  // of the extent: round-off of coordinates
-    if (height > flat * extent) throw InputError("the mesh leaves the x-y plane");
+    if (height > rounding::same * extent) throw InputError("the mesh leaves the x-y plane");
   }
 
   int node(const MshFile::Element& element, int k) const {

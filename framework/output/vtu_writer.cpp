@@ -162,7 +162,7 @@ void write_front_vtu(const std::filesystem::path& file, const Mesh& mesh, const 
   GridData::Array fracture = integers("fracture");
   std::vector<int> ridges;
   if constexpr (dimension == 3) {  // in a plane tips are points
-    for (const Front& front : fronts(mesh)) {
+    for (const FrontLine& front : fronts(mesh)) {
       const int first = grid.point_count(), count = static_cast<int>(front.edges.size());
       for (const RimEdge& edge : front.edges) add_point(grid, mesh.nodes[edge.nodes[0]]);
       if (!front.is_closed) add_point(grid, mesh.nodes[front.edges.back().nodes[1]]);

@@ -6,19 +6,19 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/no_value.hpp"
 #include "framework/picture/display_unit.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
-constexpr double margin = 0.04;     // of the range, beyond the outermost values
-constexpr double round_off = 1e-9;  // a smaller relative range is none
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double margin = 0.04;  // of the range, beyond the outermost values
 
 double round_step(double least) {
   const double power = std::pow(10.0, std::floor(std::log10(least)));
   for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= least * (1 - round_off)) return factor * power;
+    if (factor * power >= least * (1 - rounding::same)) return factor * power;
   return 10 * power;
 }
 
@@ -33,13 +33,13 @@ Axis::Axis(const std::vector<double>& values, Scale scale, int tick_count) : sca
   }
   if (low > high) low = scale == Scale::logarithmic ? 0.1 : 0, high = 1;
   if (scale == Scale::logarithmic) {
-    low_ = std::floor(std::log10(low) + round_off);
-    high_ = std::max(std::ceil(std::log10(high) - round_off), low_ + 1);
+    low_ = std::floor(std::log10(low) + rounding::same);
+    high_ = std::max(std::ceil(std::log10(high) - rounding::same), low_ + 1);
     make_decades(tick_count);
     return;
   }
   const double size = std::max(std::abs(low), std::abs(high));
-  if (high - low <= round_off * size) {
+  if (high - low <= rounding::same * size) {
     const double around = size > 0 ? 0.05 * size : 1;
     low -= around;
     high += around;
@@ -54,14 +54,14 @@ Axis::Axis(double low, double high, int tick_count) : scale_(Scale::linear), low
 }
 
 double Axis::fraction(double value) const {
-  if (scale_ == Scale::logarithmic) value = value > 0 ? std::log10(value) : not_a_number;
+  if (scale_ == Scale::logarithmic) value = value > 0 ? std::log10(value) : no_value;
   return (value - low_) / (high_ - low_);
 }
 
 void Axis::make_linear_ticks(int count) {
   const double step = round_step((high_ - low_) / std::max(count, 1));
-  const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + round_off)), 0, 12);
-  for (double i = std::ceil(low_ / step - round_off); i * step <= high_ + round_off * step; ++i)
+  const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + rounding::same)), 0, 12);
+  for (double i = std::ceil(low_ / step - rounding::same); i * step <= high_ + rounding::same * step; ++i)
     ticks_.push_back({i * step, fmt::format("{:.{}f}", i == 0 ? 0.0 : i * step, decimals)});
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -158,10 +159,9 @@ std::vector<int> connected_parts(const Mesh& mesh, const std::vector<bool>& is_m
 bool meets_cell(const Mesh& mesh, int cell, const Segment& segment) {
   const Ring& corners = mesh.cell_nodes[cell];
   bool is_inside = true;
-  constexpr double touch = 1e-9;  // of an edge: round-off of coordinates
   for (int k = 0; k < corners.size(); ++k) {
     const Point &a = mesh.nodes[corners[k]], &b = mesh.nodes[corners.after(k)];
-    if (distance(segment, Segment{a, b}) <= touch * (b - a).norm()) return true;
+    if (distance(segment, Segment{a, b}) <= rounding::same * (b - a).norm()) return true;
     is_inside = is_inside && signed_area(a, b, segment.from) > 0;
   }
   return is_inside;

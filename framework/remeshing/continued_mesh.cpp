@@ -5,6 +5,7 @@
 #include <map>
 
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/cavity.hpp"
@@ -185,8 +186,7 @@ class Continuation {
     const int old_count = mesh_.cell_count();
     for (int cell = 0; cell < grown.mesh.cell_count(); ++cell)
       areas.emplace_back(cell, cell < old_count ? cell : origin_[cell - old_count], grown.mesh.cell_measure[cell]);
-    change.overlap.resize(grown.mesh.cell_count(), old_count);
-    change.overlap.setFromTriplets(areas.begin(), areas.end());
+    change.overlap = matrix_of(grown.mesh.cell_count(), old_count, areas);
   }
 
   const Mesh& mesh_;

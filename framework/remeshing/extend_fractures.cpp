@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/healed_mesh.hpp"
@@ -149,8 +150,7 @@ class Growth {
       mesh.cell_rank[cell] = mesh_.cell_rank[ancestor(change, cell, next_new)];
       if (change.cell[cell] != none) areas.emplace_back(cell, change.cell[cell], mesh.cell_measure[cell]);
     }
-    change.overlap.resize(mesh.cell_count(), mesh_.cell_count());
-    change.overlap.setFromTriplets(areas.begin(), areas.end());
+    change.overlap = matrix_of(mesh.cell_count(), mesh_.cell_count(), areas);
   }
 
   void map_fractures(GrownMesh& grown) const {

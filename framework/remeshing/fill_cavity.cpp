@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "framework/mesh/plane/planar.hpp"
+#include "framework/round_off.hpp"
 #include "framework/triangulation/canonical_drawing.hpp"
 #include "framework/triangulation/mesh_region.hpp"
 
@@ -97,9 +98,7 @@ void verify(const CavityOutline& outline, const CanonicalDrawing& drawing, const
       wanted += 0.5 * cross(outline.points[points[0]] - origin, outline.points[points[1]] - origin);
     }
   }
-  // Of the area: a missing triangle is more; round-off of coordinates, far below a triangle.
-  constexpr double rounding = 1e-9;
-  if (!(std::abs(area - wanted) < rounding * wanted) || smallest_angle(filling) <= 0) {
+  if (!(std::abs(area - wanted) < rounding::same * wanted) || smallest_angle(filling) <= 0) {
     throw std::runtime_error("the mesh generator left a part of the cavity empty near " +
                              to_text(drawing.outward(outline.points.front())));
   }

@@ -6,26 +6,25 @@
 #include <stdexcept>
 
 #include "framework/remeshing/obstacles.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 
 FreeLength free_length(const Mesh& mesh, int fracture, bool at_end, const Point& from, const Point& direction) {
   if (!(direction.norm() > 0)) throw std::invalid_argument("free_length: the direction has no length");
-  constexpr double rounding = 1e-12;  // of a length, at the ends of a segment and beside a line: far below an edge
-  constexpr double parallel = 1e-14;  // sine of the angle between lines whose crossing is lost to rounding
   const Point u = direction.normalized();
   FreeLength free{std::numeric_limits<double>::infinity(), FreeLength::Met::nothing, none, from};
   const auto meet = [&](const Segment& s, FreeLength::Met met, int index) {
     const Point v = s.to - s.from, w = s.from - from;
     const double determinant = cross(u, v), length = v.norm();
     double t;
-    if (std::abs(determinant) > parallel * length) {
+    if (std::abs(determinant) > rounding::of_terms * length) {
       t = cross(w, v) / determinant;
       const double along = cross(w, u) / determinant;
-      if (along < -rounding || along > 1 + rounding) return;
+      if (along < -rounding::same || along > 1 + rounding::same) return;
     } else {
       // A parallel segment is met, at its nearer end, only if it lies ahead on the same line.
-      if (std::abs(cross(w, u)) > rounding * length) return;
+      if (std::abs(cross(w, u)) > rounding::same * length) return;
       t = std::min(w.dot(u), (w + v).dot(u));
     }
     if (t < 0 || t >= free.length) return;

@@ -7,6 +7,7 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/remeshing/same_ridges.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -55,11 +56,10 @@ class ReplacedCells {
 
   void check_length(double replaced_length) const {
     if (extension_.points.empty()) return;  // refused later, like all paths without points
-    constexpr double round_off = 1e-12;     // of a length that is a sum of lengths
     Point from = mesh_.ridges[inner_point(cells_.front())].center;
     double length = 0;
     for (const Point& to : extension_.points) length += (to - from).norm(), from = to;
-    if (length < (1 - round_off) * replaced_length)
+    if (length < (1 - rounding::same) * replaced_length)
       refuse(Reason::not_replaceable, from, "becomes shorter",
              "the new path has " + std::to_string(length / replaced_length) + " of the length of what it replaces");
   }

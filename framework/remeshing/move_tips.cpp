@@ -4,20 +4,20 @@
 #include <limits>
 
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/build_mesh.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/healed_mesh.hpp"
 #include "framework/remeshing/overlap.hpp"
 #include "framework/remeshing/replaced_parts.hpp"
 #include "framework/remeshing/spread_motion.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
 /// The smallest angle may fall to this part of what it was.
 constexpr double least_angle_part = 0.6;
-/// A point stays where it is when it moves by less than this part of an edge length: round-off of coordinates.
-constexpr double contact = 1e-9;
 
 class Motion {
  public:
@@ -34,7 +34,7 @@ class Motion {
       const int node = nodes[i];
       const Point by = checked.points[i] - raw_.nodes[node];
       if (is_bound_[node]) {
-        if (by.norm() > contact * size_) return false;
+        if (by.norm() > rounding::same * size_) return false;
       } else {
         if (checked.points[i] != extension.points[i]) return false;  // onto the boundary or another fracture
         moved_.push_back({node, by});
@@ -149,8 +149,7 @@ MeshChange change_of(const Mesh& before, const GrownMesh& grown, const Mesh& mes
   });
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
     if (change.cell[cell] != none) areas.emplace_back(cell, change.cell[cell], mesh.cell_measure[cell]);
-  change.overlap.resize(mesh.cell_count(), before.cell_count());
-  change.overlap.setFromTriplets(areas.begin(), areas.end());
+  change.overlap = matrix_of(mesh.cell_count(), before.cell_count(), areas);
   return change;
 }
 

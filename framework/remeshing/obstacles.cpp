@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/round_off.hpp"
+
 namespace sprekk {
 namespace {
 
 /// Whether an edge lies on the line through another one.
 bool is_in_line(const Segment& edge, const Segment& line) {
-  constexpr double straight = 1e-6;  // rad: edges on one line, far above round-off
   const Point along = line.to - line.from;
   return std::max(std::abs(cross(along, edge.from - line.from)), std::abs(cross(along, edge.to - line.from))) <=
-         straight * along.norm() * std::max(line.length(), (edge.to - line.from).norm());
+         rounding::far_above * along.norm() * std::max(line.length(), (edge.to - line.from).norm());
 }
 
 /// Makes a line as long as an edge on it reaches.

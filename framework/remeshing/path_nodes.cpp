@@ -7,13 +7,11 @@
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/plane/graded_division.hpp"
 #include "framework/meshing/plane/narrow_gaps.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
-/// An end lies on the outer boundary, or at a node of it, if the distance is below this part of the edge length:
-/// round-off of coordinates.
-constexpr double at_boundary = 1e-9;
 /// The growth of the lengths of edges along a path away from a short edge, m per m: steeper grading leaves small
 /// angles.
 constexpr double growth_along = 0.5;
@@ -66,9 +64,9 @@ class Placement {
 
   bool put_end_on_boundary(int& end) {
     for (int face = 0; face < mesh_.face_count(); ++face) {
-      if (mesh_.face_side[face] == none || distance(at(end), segment(face)) > at_boundary * size_) continue;
+      if (mesh_.face_side[face] == none || distance(at(end), segment(face)) > rounding::same * size_) continue;
       for (const int node : ends(face)) {
-        if ((at(node) - at(end)).norm() > at_boundary * size_) continue;
+        if ((at(node) - at(end)).norm() > rounding::same * size_) continue;
         end = node;
         return true;
       }
@@ -80,7 +78,7 @@ class Placement {
 
   bool put_end_on_fracture(int& end) {
     for (std::size_t node = 0; node < is_on_fracture_.size(); ++node) {
-      if (!is_on_fracture_[node] || (at(static_cast<int>(node)) - at(end)).norm() > at_boundary * size_) continue;
+      if (!is_on_fracture_[node] || (at(static_cast<int>(node)) - at(end)).norm() > rounding::same * size_) continue;
       end = static_cast<int>(node);
       return true;
     }
@@ -199,10 +197,9 @@ class Placement {
   void find_narrow_places(const std::vector<int>& path, int fracture) {
     const std::vector<Obstacle> obstacles = obstacles_near(path, fracture);
     if (obstacles.empty()) return;
-    constexpr int samples = 64;  // of an edge, as in graded_division.cpp; half as many were tried, too
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      for (int k = 0; k <= samples; ++k) {
-        const Point x = at(path[i]) + k * (at(path[i + 1]) - at(path[i])) / samples;
+      for (int k = 0; k <= samples_of_length; ++k) {
+        const Point x = at(path[i]) + k * (at(path[i + 1]) - at(path[i])) / samples_of_length;
         double size = size_;
         for (const auto& [segment, least] : obstacles)
           size = std::min(size, std::max(distance(x, segment) / gap_edges_, least));

@@ -12,6 +12,7 @@
 #include "framework/remeshing/cavity.hpp"
 #include "framework/remeshing/fill_cavity.hpp"
 #include "framework/remeshing/rounded_filling.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -144,8 +145,8 @@ class Refilling {
 
   static bool are_in_line(const OuterEdge& a, const OuterEdge& b, const std::vector<Point>& nodes) {
     const Point u = nodes[a.nodes.back()] - nodes[a.nodes.front()], v = nodes[b.nodes.back()] - nodes[b.nodes.front()];
-    constexpr double straight = 1e-14;  // rad: edges of a straight side bend by rounding only; some hundred roundings
-    return a.side == b.side && a.region == b.region && std::abs(cross(u, v)) <= straight * u.norm() * v.norm();
+    return a.side == b.side && a.region == b.region &&
+           std::abs(cross(u, v)) <= rounding::of_terms * u.norm() * v.norm();
   }
 
   void fill(const std::vector<int>& cells, int part, const std::vector<int>& part_of_path, double size_factor,

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
+#include "framework/no_value.hpp"
 #include "framework/output/progress.hpp"
 #include "framework/picture/display_unit.hpp"
 #include "framework/report/fracture_names.hpp"
@@ -112,7 +112,7 @@ Panel panel_along(const FractureHistory& through, const Grid::Values& sample, in
     if (values == nullptr) continue;
     Curve curve{display_text(through.times[t], time_unit), {}, {}, time_style(t, through.times.size())};
     for (const FracturePath& path : through.paths[t]) {
-      if (!curve.x.empty()) curve.x.push_back(nothing), curve.y.push_back(nothing);
+      if (!curve.x.empty()) curve.x.push_back(no_value), curve.y.push_back(no_value);
       for (std::size_t i = 0; i < path.cells.size(); ++i) {
         curve.x.push_back(path.length[i] / length.scale);
         curve.y.push_back(values->values[static_cast<std::size_t>(path.cells[i] * values->components + component)] /
@@ -148,7 +148,7 @@ Panel paths_panel(const std::map<int, FractureHistory>& all) {
       curve.name = display_text(through.times[t], time_unit_of(through));
       curve.style = time_style(t, count);
       for (const FracturePath& path : through.paths[t]) {
-        if (!curve.x.empty()) curve.x.push_back(nothing), curve.y.push_back(nothing);
+        if (!curve.x.empty()) curve.x.push_back(no_value), curve.y.push_back(no_value);
         for (const auto& point : path.points) {
           curve.x.push_back(point[0] / unit.scale);
           curve.y.push_back(point[1] / unit.scale);

@@ -8,13 +8,13 @@
 
 #include "framework/picture/display_unit.hpp"
 #include "framework/report/html.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
 // What Newton's method, which stops at 1e-10 of the terms of an equation, leaves of a balance.
 constexpr double far_below = 1e-10;
-constexpr double same = 1e-12;  // of a value: smaller changes are invisible in a figure
 
 }  // namespace
 
@@ -46,7 +46,7 @@ bool QuietValues::take(const std::string& name, const std::string& unit, const s
   std::ranges::copy_if(values, std::back_inserter(finite), [](double value) { return std::isfinite(value); });
   if (finite.empty()) return false;
   const auto [low, high] = std::ranges::minmax(finite);
-  if (high - low > same * largest_size(finite)) return false;
+  if (high - low > rounding::same * largest_size(finite)) return false;
   constant_.push_back(name + " " + display_text(finite.back(), unit));
   return true;
 }

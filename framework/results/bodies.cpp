@@ -9,12 +9,10 @@
 #include <stdexcept>
 
 #include "framework/dense/least_squares.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-constexpr double on_the_face = 1e-9;  // barycentric coordinate of a place on a face
-constexpr double in_plane = 1e-6;     // ratio of singular values where all neighbours lie in one plane
 
 /// The corners of the faces of a body, in the order of gmsh.
 const std::vector<std::vector<int>>& faces_with(std::int64_t corners) {
@@ -131,7 +129,7 @@ void Bodies::fill_boxes() {
 std::optional<int> Bodies::holding(const Eigen::Vector3d& place) const {
   const auto [i, j, k] = box_at(place);
   std::optional<int> best;
-  double deepest = -on_the_face;
+  double deepest = -rounding::same;
   for (const int body : in_box_[(k * boxes_[1] + j) * boxes_[0] + i])
     for (const Corners& x : tetrahedra_of(body)) {
       double inside = std::numeric_limits<double>::infinity();
@@ -166,7 +164,7 @@ double Bodies::value_at(const std::vector<double>& values, int body, const Eigen
     directions.row(k) = step / step.norm();
     changes[k] = (values[others[k]] - values[body]) / step.norm();
   }
-  return values[body] + LeastSquares(directions, in_plane).solve(changes).dot(place - centre(body));
+  return values[body] + LeastSquares(directions, rounding::far_above).solve(changes).dot(place - centre(body));
 }
 
 }  // namespace sprekk

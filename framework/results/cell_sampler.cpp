@@ -9,13 +9,10 @@
 #include <utility>
 
 #include "framework/dense/least_squares.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-// Barycentric coordinate of a point on an edge: round-off of points that lie on an edge.
-constexpr double on_the_edge = 1e-9;
-constexpr double in_line = 1e-6;  // ratio of singular values where all neighbours lie on one line
 
 using Edge = std::pair<Position, Position>;
 
@@ -147,7 +144,7 @@ std::optional<int> CellSampler::part_at(const Position& place, int group) const 
     if (!(column >= -1 && column <= columns_ && row >= -1 && row <= rows_)) return best;
     const int box = std::clamp(static_cast<int>(row), 0, rows_ - 1) * columns_ +
                     std::clamp(static_cast<int>(column), 0, columns_ - 1);
-    double deepest = -on_the_edge;
+    double deepest = -rounding::same;
     for (const int part : in_box_[at(box)]) {
       const std::array<double, 3> s = shares(part, place);
       const double inside = std::min({s[0], s[1], s[2]});
@@ -232,7 +229,7 @@ Position SampledArray::gradient(int cell) const {
     directions.row(k) = step / step.norm();
     changes[k] = (own_[index_of(other)] - own_[index_of(cell)]) / step.norm();
   }
-  const Eigen::Vector2d solved = LeastSquares(directions, in_line).solve(changes);
+  const Eigen::Vector2d solved = LeastSquares(directions, rounding::far_above).solve(changes);
   found->second = {solved[0], solved[1]};
   return found->second;
 }

@@ -5,15 +5,9 @@
 #include "framework/config/expression.hpp"
 #include "framework/config/quantity_scale.hpp"
 #include "framework/results/field_of_run.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
-namespace {
-
-/// Times that are equal except for round-off, as a share of the run's length: as for steps.
-constexpr double same_time = 1e-9;
-
-}  // namespace
-
 Data read_run_datum(const Node& node, const DataRequest& request) {
   require_known_keys(node, {"run", "of", "at"}, request);
   const Node& folder = *node.find("run");
@@ -41,7 +35,7 @@ Data read_run_datum(const Node& node, const DataRequest& request) {
         if (run->is_on_fractures() && place.fracture < 0)
           throw DataError(fmt::format("{}: {} is a field on fractures, and is needed elsewhere, at {}", where.text(),
                                       quoted(name), place_text(place)));
-        const double t = fixed.value_or(place.t), rounding = same_time * (run->last_time() - run->first_time());
+        const double t = fixed.value_or(place.t), rounding = rounding::same * (run->last_time() - run->first_time());
         if (t < run->first_time() - rounding || t > run->last_time() + rounding)
           throw DataError(
               fmt::format("{}: {} has no value at t = {} s (the run has written it from {} s to {} s: write "

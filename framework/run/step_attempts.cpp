@@ -11,6 +11,7 @@
 #include "framework/outside/outside_error.hpp"
 #include "framework/parallel/interruption.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 #include "framework/schedule/limits_step.hpp"
 
 namespace sprekk {
@@ -95,8 +96,7 @@ std::string StepAttempts::limit_steps() {
 StepTime StepAttempts::next_step() const {
   StepTime step = state_.controller.next(growth_.longest_step());
   // Equal parts, so that no tiny step is left: round-off of sums of steps.
-  constexpr double rounding = 1e-9;
-  if (const double parts = std::ceil(step.dt / longest_ - rounding); parts > 1) {
+  if (const double parts = std::ceil(step.dt / longest_ - rounding::same); parts > 1) {
     step.dt /= parts;
     step.end = step.start + step.dt;
   }

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 
-namespace sprekk {
+#include "framework/name_pattern.hpp"
 
-bool stands_for(const std::string& key, const std::string& name) {
-  const bool is_beginning = key.size() > 1 && key.back() == '*';
-  return is_beginning ? name.starts_with(key.substr(0, key.size() - 1)) : key == name;
-}
+namespace sprekk {
 
 std::vector<char> fracture_set(const Mesh& mesh, const std::vector<std::string>& names, const Origin& origin) {
   if (names.empty()) return {};

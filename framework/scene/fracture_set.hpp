@@ -9,9 +9,6 @@
 
 namespace sprekk {
 
-/// Whether a key stands for a name: the key is this name, or is like `joints_*` and the name begins so.
-bool stands_for(const std::string& key, const std::string& name);
-
 /// One flag a fracture cell: whether its fracture has one of these names; `joints_*` stands for all names that begin
 /// with `joints_`. What has grown belongs to the fracture that it continues. Empty where the set has all fractures, as
 /// with empty `names`. Throws InputError at `origin` for a name that no fracture has.

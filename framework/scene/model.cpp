@@ -1,5 +1,6 @@
 #include "framework/scene/model.hpp"
 
+#include "framework/round_off.hpp"
 #include "framework/scene/unusual_values.hpp"
 
 #include <algorithm>
@@ -156,7 +157,6 @@ namespace {
 /// What the equations of all unknowns say of a quantity at the end of a step. Collective.
 StepAmounts amounts_of(const std::string& quantity, const Mesh& mesh, const std::vector<const Field*>& unknowns,
                        const std::vector<Part*>& parts, const StepTime& step, bool lets_out) {
-  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // as Newton's method grants
   Assembly assembly(unknowns, Assembly::Request::residual);
   assemble_all(assembly, parts, step);
   StepAmounts amounts;
@@ -167,8 +167,8 @@ StepAmounts amounts_of(const std::string& quantity, const Mesh& mesh, const std:
       for (int i = 0; i < field.size(); ++i)
         if (is_owned(mesh, field.spec().location, i)) amounts.moved += assembly.balances().throughput(u)[i];
       // What leaves all rows is a difference of numbers as large as what rows exchange.
-      amounts.round_off += round_off * std::max(parallel::max(assembly.balances().round_off_base(u)),
-                                                lets_out ? parallel::max(assembly.round_off_base(u)) : 0.0);
+      amounts.round_off += rounding::of_sum * std::max(parallel::max(assembly.balances().round_off_base(u)),
+                                                       lets_out ? parallel::max(assembly.round_off_base(u)) : 0.0);
     }
   }
   amounts.moved = parallel::sum(amounts.moved);

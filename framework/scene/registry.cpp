@@ -1,22 +1,12 @@
 #include "framework/scene/registry.hpp"
 
-#include <algorithm>
 #include <regex>
 
-#include "framework/plugin/plugin.hpp"
+#include "framework/plugin/insert_by_name.hpp"
 
 namespace sprekk {
 
 namespace {
-
-template <class Type>
-void insert_sorted(std::vector<Type>& types, Type type) {
-  const auto place =
-      std::lower_bound(types.begin(), types.end(), type, [](const Type& a, const Type& b) { return a.type < b.type; });
-  if (place != types.end() && place->type == type.type) return refuse_registration(type.type);
-  note_registration(type.type);
-  types.insert(place, std::move(type));
-}
 
 /// Throws InputError for a type that the program for the plane has. `folder`: of all such types.
 void refuse_in_space(const std::string& folder, const std::string& what, const std::string& name, const Origin& where) {
@@ -47,8 +37,8 @@ Registry& Registry::instance() {
   return registry;
 }
 
-void Registry::add(ComponentType type) { insert_sorted(components_, std::move(type)); }
-void Registry::add(CouplerType type) { insert_sorted(couplers_, std::move(type)); }
+void Registry::add(ComponentType type) { insert_by_name(components_, std::move(type), &ComponentType::type); }
+void Registry::add(CouplerType type) { insert_by_name(couplers_, std::move(type), &CouplerType::type); }
 
 const ComponentType& Registry::component(const std::string& type, const Origin& where) const {
   refuse_in_space("components", "type of component", type, where);

@@ -21,6 +21,7 @@
 #include "framework/meshing/validate_geometry.hpp"
 #include "framework/plugin/plugin.hpp"
 #include "framework/results/run_datum.hpp"
+#include "framework/round_off.hpp"
 #include "framework/scene/key_places.hpp"
 #include "framework/scene/scene_dimension.hpp"
 #include "framework/schedule/schedule_context.hpp"
@@ -318,12 +319,11 @@ void note_tables(const Node& node, Scene& scene) {
   if (!file || !file->is_scalar()) return;
   const TimeOptions& time = scene.time;
   const double step = std::min(time.adaptive ? time.largest : time.step, time.end - time.start);
-  constexpr double rounding = 1e-9;  // of the standard step: times that are one (step_controller.cpp)
   std::vector<double> times = times_of_table(node, scene.folder);
   std::erase_if(times, [&](double t) { return t < time.start || t > time.end; });
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < times.size(); ++i) nearest = std::min(nearest, times[i] - times[i - 1]);
-  if (!(nearest < step * (1 - rounding))) return;
+  if (!(nearest < step * (1 - rounding::same))) return;
   scene.notes.add(
       "table finer than the steps",
       node.origin.text() + ": " + sprekk::quoted(file->scalar) + " has rows that are " + quantity_text(nearest, "s") +
@@ -340,14 +340,13 @@ void note_times(Scene& scene) {
     const Origin& origin = given ? given->origin : scene.whole.find(section)->origin;
     scene.notes.add(std::string(section) + "." + key + " without effect", origin.text() + ": " + text);
   };
-  constexpr double rounding = 1e-9;  // of the standard step: times that are one (step_controller.cpp)
   const double duration = time.end - time.start;
   const std::string duration_text = "the run is " + quantity_text(duration, "s") + " long";
-  if (time.step > duration * (1 + rounding))
+  if (time.step > duration * (1 + rounding::same))
     note("time", "step",
          "'step' is " + quantity_text(time.step, "s") + " (" + duration_text +
              ", and is done in one shorter step) lower 'step', or raise 'end'");
-  if (scene.output.every && *scene.output.every > duration * (1 + rounding))
+  if (scene.output.every && *scene.output.every > duration * (1 + rounding::same))
     note("output", "every",
          "'every' has no effect: it is " + quantity_text(*scene.output.every, "s") + " (" + duration_text +
              ", and fields are written at its end anyhow) lower it");

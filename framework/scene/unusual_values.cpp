@@ -15,7 +15,7 @@
 #include "framework/config/table.hpp"
 #include "framework/config/unit.hpp"
 #include "framework/config/units.hpp"
-#include "framework/scene/fracture_set.hpp"
+#include "framework/name_pattern.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk {

@@ -7,6 +7,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/output/activity.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 
@@ -122,20 +123,16 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
   if (grows_within_step()) growing_->grow_within_steps();
 }
 
-bool GrowStep::may_shrink(const StepTime& step) const {
-  constexpr double rounding = 1e-9;  // of the smallest step: round-off of sums of steps
-  return step.dt > smallest_step_ * (1 + rounding);
-}
+bool GrowStep::may_shrink(const StepTime& step) const { return step.dt > smallest_step_ * (1 + rounding::same); }
 
 StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) {
   SPREKK_EXPECT(std::isfinite(before) && std::isfinite(now), before, now);
   SPREKK_ASSERT(smallest_step_ > 0, smallest_step_);
-  constexpr double aim = 0.5;   // of the overshoot: the middle of what is accepted
-  constexpr double half = 0.5;  // of the step, where the part to take does not follow from its loads
   constexpr double slowest = 0.4, at_constant_rate = 1;  // powers of time with which loads rise; 1/2: diffusion
-  constexpr double least = 0.01, least_by_logarithm = 0.1, most = 0.9;             // of the step that was refused
-  const double wanted = (1 + aim * options_.overshoot - before) / (now - before);  // of the rise of this step
-  double part = now > before ? wanted : half;
+  constexpr double least = 0.01, least_by_logarithm = 0.1, most = 0.9;  // of the step that was refused
+  // The middle of what is accepted; half of the step where the part to take does not follow from its loads.
+  const double wanted = (1 + 0.5 * options_.overshoot - before) / (now - before);  // of the rise of this step
+  double part = now > before ? wanted : 0.5;
   if (refusal_ && refusal_->start == step.start && refusal_->before == before && refusal_->dt > step.dt &&
       refusal_->load > now && now > before) {
     const double shortening = std::log(refusal_->dt / step.dt);

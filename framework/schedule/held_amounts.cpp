@@ -5,6 +5,7 @@
 
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk {
@@ -24,9 +25,7 @@ SparseMatrix derivative(const Assembly& assembly, int row, int column) {
       for (SparseMatrix::InnerIterator entry(*block.matrix, r); entry; ++entry)
         entries.emplace_back(r, static_cast<int>(entry.col()), scale_of(block, r) * entry.value());
   }
-  SparseMatrix matrix(assembly.unknowns()[row]->size(), assembly.unknowns()[column]->size());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return matrix_of(assembly.unknowns()[row]->size(), assembly.unknowns()[column]->size(), entries);
 }
 
 /// What balances store for a uniform change of their own field by 1; the rows that this process owns. 0 for rows with
@@ -61,9 +60,7 @@ SparseMatrix following(const SparseMatrix& b, const Vector& s, const std::vector
   SPREKK_ASSERT(places.size() == 2 * values.size(), places.size(), values.size());
   std::vector<Triplet> entries;
   for (std::size_t i = 0; i < values.size(); ++i) entries.emplace_back(places[2 * i], places[2 * i + 1], values[i]);
-  SparseMatrix matrix(b.rows(), b.cols());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return matrix_of(b.rows(), b.cols(), entries);
 }
 
 std::vector<const Field*> joined(std::vector<const Field*> fields, const std::vector<const Field*>& more) {

@@ -159,8 +159,7 @@ class IterateStep::Passes {
       seen_states_.insert(state);
     }
     if (is_cycling_ && is_other_state) {
-      constexpr double half = 0.5;  // of a pass: its end is between both states of the cycle
-      own_.set_scaled_values(before_ + half * change_);
+      own_.set_scaled_values(before_ + 0.5 * change_);
       return;
     }
     if (!own_.accelerator_ || is_cycling_) return;

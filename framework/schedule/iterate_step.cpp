@@ -13,6 +13,7 @@
 #include "framework/assembly/stabilizes.hpp"
 #include "framework/invariants.hpp"
 #include "framework/outside/solved_outside.hpp"
+#include "framework/round_off.hpp"
 #include "framework/schedule/passes/ends_of_passes.hpp"
 #include "framework/schedule/passes/round_off_of_values.hpp"
 
@@ -160,10 +161,10 @@ void IterateStep::choose_scales() {
     if (field->size() > 0)
       l = std::max({l, field->now().lpNorm<Eigen::Infinity>(), field->accepted().lpNorm<Eigen::Infinity>()});
   }
-  constexpr double digits = 1e-8;  // a field with fewer must not hide the changes of others: square root of round-off
   for (std::size_t u = 0; u < fields_.size(); ++u) {
     double l = largest[fields_[u]->spec().unit];
-    if (!round_off_.empty() && fields_[u]->size() > 0) l = std::max(l, round_off_[u].maxCoeff() / digits);
+    if (!round_off_.empty() && fields_[u]->size() > 0)
+      l = std::max(l, round_off_[u].maxCoeff() / rounding::half_of_digits);
     scales_[u] = (l > 0 ? l : 1) * std::sqrt(std::max(1, fields_[u]->size()));
   }
 }

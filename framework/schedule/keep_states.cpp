@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 #include "framework/schedule/newton.hpp"
 #include "framework/schedule/search_mode_guard.hpp"
 
@@ -92,8 +93,7 @@ std::optional<Newton::Loss> Newton::find_loss(const StepTime& step, double time)
   std::optional<Loss> loss = find_loss(time);
   if (!loss) return loss;
   // What flows away takes time, and may hold up a motion that would run away over a longer step.
-  constexpr double shortest = 1e-6;  // of the step: nothing flows in it
-  const double dt = shortest * step.dt;
+  const double dt = rounding::far_above * step.dt;
   const ResidualCheck check = evaluate({step.end - dt, dt, step.end});
   const bool is_factored = check.finite && linear_->factor(system_.matrix(*assembly_)).solved;
   if (!is_factored || !find_loss(time)) loss.reset();

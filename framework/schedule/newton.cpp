@@ -281,13 +281,12 @@ bool Newton::is_small(ResidualCheck& check, int iteration, Seen& seen) {
   if (!seen.seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
   if (!check.rows_hold || check.converged || !seen.has_factors)
     return check.converged && iteration >= least_iterations_;
-  // An imbalance that another iteration does not reduce is lost in the round-off of the matrix. Sums of balances may
+  // An imbalance that another iteration does not halve is lost in the round-off of the matrix. Sums of balances may
   // remove it; otherwise no smaller imbalance is possible. The same for the residual of a single row.
-  constexpr double hardly_better = 0.5;
-  const bool rows_stall = check.each_row_holds || check.row_error > hardly_better * seen.last_row_error;
+  const bool rows_stall = check.each_row_holds || check.row_error > 0.5 * seen.last_row_error;
   seen.last_row_error = check.row_error;
   if (check.balances_hold) return rows_stall;
-  const bool stalls = check.imbalance > hardly_better * seen.last_imbalance;
+  const bool stalls = check.imbalance > 0.5 * seen.last_imbalance;
   seen.last_imbalance = check.imbalance;
   if (stalls && may_take_coupled_sums()) {
     system_.use_coupled_sums(true);

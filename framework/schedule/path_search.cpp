@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 #include "framework/schedule/newton.hpp"
 #include "framework/schedule/search_mode_guard.hpp"
 
@@ -26,7 +28,7 @@ struct Crossing {
 /// once.
 template <class IsSame>
 std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
-  constexpr double sharpness = 1e-13, shortest = 1e-16;  // of a length: some hundred roundings; and the shortest one
+  constexpr double shortest = 1e-16;                              // of a length: an absolute one, for those that vanish
   constexpr double first = dimension == 2 ? 1 : 1.0 / (1 << 20);  // about the length of a step off kinks, below
   SPREKK_EXPECT(limit > 0, limit);
   Crossing crossing{0, std::min(first, limit)};
@@ -34,7 +36,7 @@ std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
     if (crossing.behind >= limit) return std::nullopt;
     crossing = {crossing.behind, 2 * crossing.behind};
   }
-  while (crossing.behind - crossing.before > sharpness * crossing.behind + shortest) {
+  while (crossing.behind - crossing.before > rounding::of_terms * crossing.behind + shortest) {
     const double middle = 0.5 * (crossing.before + crossing.behind);
     (is_same(middle) ? crossing.before : crossing.behind) = middle;
   }
@@ -48,8 +50,8 @@ std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
 /// starts beside the kinks. Fields of one unit share a scale: jumps that are zero while everything sticks are compared
 /// with displacements.
 void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
-  // Above round-off of the state; by other amounts for each unknown.
-  constexpr double aside = 1e-5, golden_ratio = 0.6180339887498949;
+  // Above round-off of the state; by other amounts for each unknown, as multiples of the golden ratio repeat nowhere.
+  constexpr double aside = 1e-5;
   SPREKK_EXPECT(update.size() == system_.size(), update.size(), system_.size());
   SPREKK_EXPECT(system.blocks.size() == unknowns_.size(), system.blocks.size(), unknowns_.size());
   const auto change = [&](std::size_t u) {
@@ -65,7 +67,7 @@ void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
     if (system.blocks[u].kind != BlockKind::interface) continue;
     Vector values = unknowns_[u]->now();
     for (int i = 0; i < values.size(); ++i) {
-      const double turns = (i + 1) * golden_ratio;
+      const double turns = (i + 1) * (std::numbers::phi - 1);
       values[i] += aside * scale[unknowns_[u]->spec().unit] * (2 * (turns - std::floor(turns)) - 1);
     }
     unknowns_[u]->set(std::move(values));
@@ -86,9 +88,8 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
   std::uint64_t left = 0;    // the last piece before the present one
   bool has_crossed = false;  // since the last whole step
   int whole_steps = 0;
-  constexpr int patience = 30;         // pieces without this gain
-  constexpr double least_gain = 1e-6;  // of s
-  double share = 1, least_share = 1;   // s
+  constexpr int patience = 30;        // pieces without this gain
+  double share = 1, least_share = 1;  // s
   int without_gain = 0;
   lost_.reset();
   is_path_stuck_ = false;
@@ -139,7 +140,7 @@ StepStatus Newton::follow_path(const StepTime& step, SearchMode mode) {
       log_({step, name_, iteration, check.largest, check.equation, relative_size(update, check),
             is_reversed ? -length : length, check.of_equations});
     if (is_solution(check)) return {true, "", iteration + 1};
-    without_gain = share < (1 - least_gain) * least_share ? 0 : without_gain + 1;
+    without_gain = share < (1 - rounding::far_above) * least_share ? 0 : without_gain + 1;
     if (without_gain == 0) least_share = share;
     is_path_stuck_ = without_gain == patience;
     if (is_path_stuck_)

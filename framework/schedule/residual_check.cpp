@@ -7,12 +7,12 @@
 
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 
 namespace {
 
-constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of summed terms
 /// Squares of smaller numbers are zero, so no norm shows them. Values that are to be zero, but are solved for among
 /// large ones, shrink by 1e-16 in each iteration until they get there.
 constexpr double no_digits = 1e-154;
@@ -48,7 +48,7 @@ struct OfUnknowns {
 double noise_of_rows(const Assembly& assembly, const BlockSystem& system, int unknown) {
   const std::vector<char>& owned = system.owned(unknown);
   const double rows = parallel::sum(static_cast<double>(std::ranges::count(owned, 1)));
-  return rows * round_off * parallel::max(assembly.round_off_base(unknown));
+  return rows * rounding::of_sum * parallel::max(assembly.round_off_base(unknown));
 }
 
 /// For each unknown of a sum: how far the sum of its own rows is unknown though the sum of all of them is not. In the
@@ -95,7 +95,8 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
       const int u = quantity.unknowns[k];
       const double sum = system.residual_of_sum(assembly, u), value = std::abs(sum);
       const double magnitude = parallel::max(balances.magnitude(u));
-      const double own_noise = round_off * parallel::max(balances.round_off_base(u)), noise = own_noise + of_parts[k];
+      const double own_noise = rounding::of_sum * parallel::max(balances.round_off_base(u)),
+                   noise = own_noise + of_parts[k];
       total += sum;
       noise_of_total += own_noise;
       magnitude_of_total += magnitude;
@@ -153,7 +154,7 @@ void check_each_row(const Assembly& assembly, const BlockSystem& system, double 
     const Vector& residual = assembly.residual(unknown);
     double& worst = worst_rows[u];
     for (int row = 0; row < residual.size(); ++row) {
-      const double allowed = looser_for_balances * tolerance * terms[row] + round_off * digits[row];
+      const double allowed = looser_for_balances * tolerance * terms[row] + rounding::of_sum * digits[row];
       if (counts[row] && terms[row] > 0 && std::abs(residual[row]) > allowed)
         worst = std::max(worst, std::abs(residual[row]) / terms[row]);
     }
@@ -180,7 +181,7 @@ void check_balances(const Assembly& assembly, const BlockSystem& system, const O
     Vector sums = Vector::Zero(count);
     for (const int u : quantity.unknowns) {
       const std::vector<char>& owned = system.owned(u);
-      const double noise = round_off * all.round_off_base[u];
+      const double noise = rounding::of_sum * all.round_off_base[u];
       const Vector &residual = assembly.residual(u), &in_sum = balances.residual(u), &amounts = balances.throughput(u);
       for (int row = 0; row < residual.size(); ++row) {
         if (!owned[row]) continue;
@@ -188,7 +189,7 @@ void check_balances(const Assembly& assembly, const BlockSystem& system, const O
         sums[total] += in_sum[row];
         sums[throughput] += amounts[row];
       }
-      sums[noise_of_total] += round_off * balances.round_off_base(u);
+      sums[noise_of_total] += rounding::of_sum * balances.round_off_base(u);
     }
     parallel::sum(sums);
     if (sums[throughput] == 0) continue;
@@ -255,7 +256,7 @@ ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system
   all.add_up();
   for (std::size_t u = 0; u < assembly.unknowns().size(); ++u) {
     const double largest = all.largest[u], magnitude = all.magnitude[u], fixed_error = fixed_errors[u];
-    const double noise = round_off * all.round_off_base[u] + no_digits;
+    const double noise = rounding::of_sum * all.round_off_base[u] + no_digits;
     if (!std::isfinite(largest) || !std::isfinite(magnitude)) {
       check.finite = check.rows_hold = false;
       check.equation = assembly.unknowns()[u]->name();

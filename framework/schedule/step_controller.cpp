@@ -5,12 +5,11 @@
 
 #include "framework/config/units.hpp"
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
-/// Of the standard step: times nearer than this are the same; round-off of sums of steps.
-constexpr double rounding = 1e-9;
 /// Of a level: from a smaller rise no rate follows; levels are known to `arrest_tolerance`, 1 %.
 constexpr double least_rise = 1e-2;
 constexpr double of_failed_size = 0.999;  ///< a step that is shorter by rounding only is as long as the failed one
@@ -157,7 +156,7 @@ StepController::StepController(const TimeOptions& options, std::vector<double> t
   std::sort(targets.begin(), targets.end());
   // Targets that differ by round-off (an output time at a switch) count as one. The end keeps its exact value.
   for (const double target : targets) {
-    if (targets_.empty() || target - targets_.back() > rounding * options_.step)
+    if (targets_.empty() || target - targets_.back() > rounding::same * options_.step)
       targets_.push_back(target);
     else if (target == options_.end)
       targets_.back() = target;
@@ -167,7 +166,7 @@ StepController::StepController(const TimeOptions& options, std::vector<double> t
 StepTime StepController::next() const {
   SPREKK_ASSERT(wanted_ > 0, wanted_);
   SPREKK_ASSERT(is_ascending(targets_), targets_.size());
-  const bool is_due = recurrence_.expected && *recurrence_.expected > time_ + rounding * options_.step;
+  const bool is_due = recurrence_.expected && *recurrence_.expected > time_ + rounding::same * options_.step;
   const double size = is_due ? std::min(wanted_, std::max(*recurrence_.expected - time_, shortest_wait())) : wanted_;
   const auto target = std::upper_bound(targets_.begin(), targets_.end(), time_);
   StepTime step{time_, size, time_ + size};
@@ -175,7 +174,7 @@ StepTime StepController::next() const {
   // A rest that is longer than the step by rounding is taken in one step, so that no tiny step is left. In an adaptive
   // run a rest of less than two steps is taken in two equal ones.
   const double rest = *target - time_;
-  if (rest <= size * (1 + rounding)) {
+  if (rest <= size * (1 + rounding::same)) {
     step.dt = rest;
     step.end = *target;
   } else if (options_.adaptive && size == wanted_ && rest < 2 * size) {
@@ -188,10 +187,10 @@ StepTime StepController::next() const {
 StepTime StepController::next(double longest) const {
   SPREKK_EXPECT(longest > 0, longest);
   StepTime step = next();
-  if (step.dt <= longest * (1 + rounding)) return step;
+  if (step.dt <= longest * (1 + rounding::same)) return step;
   const auto target = std::upper_bound(targets_.begin(), targets_.end(), time_);
   const double rest = target == targets_.end() ? step.dt : *target - time_;
-  const double part = rest / std::ceil(rest / longest - rounding);
+  const double part = rest / std::ceil(rest / longest - rounding::same);
   step.dt = part > smallest() ? part : longest;
   step.end = step.start + step.dt;
   return step;
@@ -287,7 +286,7 @@ void StepController::release(double level) {
 
 void StepController::observe(double level) {
   Recurrence& last = recurrence_;
-  if (!last.released || !last.expected || *last.expected > time_ + rounding * options_.step || level >= 1) return;
+  if (!last.released || !last.expected || *last.expected > time_ + rounding::same * options_.step || level >= 1) return;
   const double rest = (time_ - *last.released) * (1 - level) / std::max(level - last.level, least_rise);
   last.patience = std::max({rest, 2 * last.patience, shortest_wait()});
   last.expected = time_ + last.patience;

@@ -8,6 +8,7 @@
 
 #include "framework/assembly/heeds_stages.hpp"
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 
@@ -123,14 +124,14 @@ void SubcycleStep::let_parts_take_stages(bool are_stages) {
 }
 
 bool SubcycleStep::begins_with_jump(const StepTime& step) {
-  constexpr double rounding = 1e-9;  // of the step: round-off of sums of steps
   if (!jumps_) {
     jumps_.emplace();
     // With one stage, fields that are held cost no order, and loads may be there at once when the run begins.
     if (scheme_ == TimeScheme::backward_euler) jumps_->push_back(start_time_);
     for (const Part* part : parts_) std::ranges::copy(part->switch_times(), std::back_inserter(*jumps_));
   }
-  return std::ranges::any_of(*jumps_, [&](double time) { return std::abs(time - step.start) <= rounding * step.dt; });
+  return std::ranges::any_of(*jumps_,
+                             [&](double time) { return std::abs(time - step.start) <= rounding::same * step.dt; });
 }
 
 void SubcycleStep::let_wait(const Course& course, const Piece& piece) {

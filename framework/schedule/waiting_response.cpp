@@ -9,7 +9,9 @@
 #include "framework/assembly/assemble_all.hpp"
 #include "framework/assembly/balance_sums.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 #include "framework/schedule/residual_check.hpp"
 
 namespace sprekk {
@@ -162,9 +164,7 @@ std::map<const Field*, SparseMatrix> WaitingResponse::answering(const Assembly& 
       const int first = system_.first(block.column);
       each_entry(block, [&](int r, int column, double value) { entries.emplace_back(r, first + column, value); });
     }
-    SparseMatrix matrix(pair.row->size(), system_.size());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    answers.emplace(pair.row, std::move(matrix));
+    answers.emplace(pair.row, matrix_of(pair.row->size(), system_.size(), entries));
   }
   return answers;
 }
@@ -182,13 +182,10 @@ SparseMatrix WaitingResponse::driving(const Assembly& assembly, const Field& col
       if (fixed.count(first + r) == 0) entries.emplace_back(by, first + r, value);
     });
   }
-  SparseMatrix matrix(column.size(), system_.size());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return matrix_of(column.size(), system_.size(), entries);
 }
 
 void WaitingResponse::respond(const Assembly& assembly, const std::map<const Field*, SparseMatrix>& answers) {
-  constexpr double negligible = 1e-6;  // of the largest entry of the column: with room for thousands of cells
   std::vector<const Field*> columns;
   for (const Following& pair : options_.pairs)
     if (std::ranges::count(columns, pair.column) == 0) columns.push_back(pair.column);
@@ -217,7 +214,7 @@ void WaitingResponse::respond(const Assembly& assembly, const std::map<const Fie
       for (const WaitingBalance& balance : sums) hold(balance, balance.of_columns.at(column)[c], follows);
       for (std::size_t f = 0; f < followers.size(); ++f) {
         const Vector answer = answers.at(followers[f]) * follows;
-        const double least = negligible * (answer.size() > 0 ? answer.lpNorm<Eigen::Infinity>() : 0);
+        const double least = rounding::far_above * (answer.size() > 0 ? answer.lpNorm<Eigen::Infinity>() : 0);
         for (int r = 0; r < answer.size(); ++r)
           if (std::abs(answer[r]) > least) response[f].emplace_back(r, c, answer[r]);
       }
@@ -229,15 +226,12 @@ void WaitingResponse::respond(const Assembly& assembly, const std::map<const Fie
       }
     }
     for (std::size_t k = 0; k < copies_.size(); ++k) {
-      SparseMatrix matrix(copied_[k]->size(), column->size());
-      matrix.setFromTriplets(of_copies[k].begin(), of_copies[k].end());
-      responses_.terms.push_back({copies_[k].get(), column, std::move(matrix)});
+      responses_.terms.push_back(
+          {copies_[k].get(), column, matrix_of(copied_[k]->size(), column->size(), of_copies[k])});
     }
     for (std::size_t f = 0; f < followers.size(); ++f) {
       if (parallel::sum(static_cast<double>(response[f].size())) == 0) continue;
-      SparseMatrix matrix(followers[f]->size(), column->size());
-      matrix.setFromTriplets(response[f].begin(), response[f].end());
-      responses_.terms.push_back({followers[f], column, std::move(matrix)});
+      responses_.terms.push_back({followers[f], column, matrix_of(followers[f]->size(), column->size(), response[f])});
     }
   }
 }
@@ -313,9 +307,8 @@ void WaitingResponse::add_copies(const Assembly& assembly) {
     if (k < 0) continue;
     std::vector<Triplet> entries;
     each_entry(block, [&](int r, int c, double value) { entries.emplace_back(r, c, value); });
-    SparseMatrix matrix(all_[block.row]->size(), copies_[k]->size());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    responses_.terms.push_back({all_[block.row], copies_[k].get(), std::move(matrix)});
+    responses_.terms.push_back(
+        {all_[block.row], copies_[k].get(), matrix_of(all_[block.row]->size(), copies_[k]->size(), entries)});
   }
 }
 

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "framework/config/units.hpp"
+#include "framework/no_value.hpp"
 #include "framework/output/vtu_writer.hpp"
 #include "framework/picture/display_unit.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 Origin origin_of(const Node& map, const std::string& key) {
   const Node* value = map.find(key);
@@ -20,15 +19,14 @@ Origin origin_of(const Node& map, const std::string& key) {
 }
 
 double value_at(const std::vector<double>& times, const std::vector<double>& values, double time) {
-  constexpr double rounding = 1e-9;  // of the last time: round-off of a few operations
-  const double tolerance = times.empty() ? 0 : rounding * std::abs(times.back());
+  const double tolerance = times.empty() ? 0 : rounding::same * std::abs(times.back());
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (std::abs(times[i] - time) <= tolerance) return values[i];
     if (times[i] > time)
-      return i == 0 ? nothing
+      return i == 0 ? no_value
                     : values[i - 1] + (values[i] - values[i - 1]) * (time - times[i - 1]) / (times[i] - times[i - 1]);
   }
-  return nothing;
+  return no_value;
 }
 
 /// Cells may be empty: between two known values the history is linear in time, whatever lies between them.
@@ -41,12 +39,12 @@ double first_time_of(const std::vector<double>& times, const std::vector<double>
       return times[*before] + (times[i] - times[*before]) * (level - values[*before]) / (values[i] - values[*before]);
     before = i;
   }
-  return nothing;
+  return no_value;
 }
 
 /// The integral over the steps whose value is known; none when there are no such steps.
 double integral(const std::vector<double>& steps, const std::vector<double>& values) {
-  double sum = nothing;
+  double sum = no_value;
   for (std::size_t i = 0; i < values.size() && i < steps.size(); ++i)
     if (!std::isnan(values[i])) sum = (std::isnan(sum) ? 0 : sum) + steps[i] * values[i];
   return sum;
@@ -54,7 +52,7 @@ double integral(const std::vector<double>& steps, const std::vector<double>& val
 
 double mean(const std::vector<double>& steps, const std::vector<double>& values) {
   std::vector<double> known;
-  for (const double value : values) known.push_back(std::isnan(value) ? nothing : 1.0);
+  for (const double value : values) known.push_back(std::isnan(value) ? no_value : 1.0);
   return integral(steps, values) / integral(steps, known);
 }
 
@@ -62,7 +60,7 @@ double extreme(const std::vector<double>& values, const std::string& take) {
   const auto measure = [&](double value) {
     return take == "largest" ? value : take == "smallest" ? -value : std::abs(value);
   };
-  double result = nothing;
+  double result = no_value;
   for (const double value : values)
     if (std::isfinite(value) && (std::isnan(result) || measure(value) > measure(result))) result = value;
   return result;
@@ -119,7 +117,7 @@ std::string Figure::heading() const { return labelled(name_, unit_); }
 
 double Figure::of(const CsvTable& history) const {
   const std::vector<double> values = history.numbers(column_), times = history.numbers("time[s]");
-  if (values.empty() || times.empty()) return nothing;
+  if (values.empty() || times.empty()) return no_value;
   if (level_) return first_time_of(times, values, *level_);
   if (time_) return value_at(times, values, *time_);
   if (take_.empty()) return values.back();

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "framework/no_value.hpp"
 
 namespace sprekk {
 
@@ -11,9 +12,8 @@ Distribution distribution_of(const std::vector<double>& numbers) {
   std::vector<double> sorted;
   std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(sorted), [](double x) { return std::isfinite(x); });
   std::sort(sorted.begin(), sorted.end());
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  Distribution result{static_cast<int>(sorted.size()), none, none, {}};
-  result.quantiles.fill(none);
+  Distribution result{static_cast<int>(sorted.size()), no_value, no_value, {}};
+  result.quantiles.fill(no_value);
   if (sorted.empty()) return result;
   result.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / result.count;
   double squares = 0;

@@ -4,13 +4,17 @@
 #include <cmath>
 #include <numeric>
 
+#include "framework/round_off.hpp"
+#include "framework/triangulation/delaunay.hpp"
+
 namespace sprekk {
 namespace {
 
-constexpr double grid = 0x1p-32;  // that of Delaunay
-
 /// Rounds to the grid; the sum replaces a negative zero by zero.
-Point rounded(const Point& x) { return {std::round(x.x() / grid) * grid + 0.0, std::round(x.y() / grid) * grid + 0.0}; }
+Point rounded(const Point& x) {
+  constexpr auto grid = Delaunay::grid;
+  return {std::round(x.x() / grid) * grid + 0.0, std::round(x.y() / grid) * grid + 0.0};
+}
 
 /// The position of each of `count` items in sorted order.
 template <class IsLess>
@@ -30,8 +34,8 @@ CanonicalDrawing::CanonicalDrawing(const std::vector<Point>& given, const std::v
   origin_ = 0.5 * (low + high);
   scale_ = std::exp2(std::floor(std::log2((high - low).maxCoeff())));
   for (const auto& [from, to] : joined) mean += inward(0.5 * (given[from] + given[to]));
-  constexpr double centred = 1e-6;  // larger than rounding: the drawing is (nearly) point-symmetric
-  if (mean.x() < -centred || (mean.x() < centred && mean.y() < -centred)) scale_ = -scale_;
+  if (mean.x() < -rounding::far_above || (mean.x() < rounding::far_above && mean.y() < -rounding::far_above))
+    scale_ = -scale_;
 
   points.resize(given.size());
   std::transform(given.begin(), given.end(), points.begin(), [this](const Point& x) { return rounded(inward(x)); });

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
-/// Of the spacing that is added before rounding down: from the golden ratio.
-constexpr double up_from = 0.6180339887498949;
 constexpr int finer = 5;                       ///< powers of two between the local length and the spacing
 constexpr double no_round_number = 1.2345678;  ///< factor on lengths: powers of two are then not at an octave's edge
-constexpr double not_centred = 1e-6;           ///< of the frame: a mean that is nearer to the origin counts as centred
 
 /// The least distances between points, or lines that end there, and what they do not touch.
 std::vector<double> local_lengths(const std::vector<Point>& points, const std::vector<std::array<int, 2>>& lines,
@@ -34,7 +33,8 @@ std::vector<double> local_lengths(const std::vector<Point>& points, const std::v
 
 }  // namespace
 
-double rounded(double value, double spacing) { return std::floor(value / spacing + up_from) * spacing; }
+/// With the golden ratio, values that are simple parts of the spacing lie on no border.
+double rounded(double value, double spacing) { return std::floor(value / spacing + std::numbers::phi - 1) * spacing; }
 
 double rounded_in_octave(double value, int steps) {
   SPREKK_EXPECT(value > 0 && steps > 0, value, steps);
@@ -50,7 +50,8 @@ DrawingFrame drawing_frame(double extent, const std::vector<Segment>& lines, con
     length += line.length();
   }
   if (length > 0) mean /= length;
-  if (mean.x() < -not_centred || (mean.x() < not_centred && mean.y() < -not_centred)) frame.scale = -frame.scale;
+  if (mean.x() < -rounding::far_above || (mean.x() < rounding::far_above && mean.y() < -rounding::far_above))
+    frame.scale = -frame.scale;
   return frame;
 }
 

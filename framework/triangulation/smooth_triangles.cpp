@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "framework/mesh/face_table.hpp"
 #include "framework/mesh/plane/planar.hpp"
@@ -47,8 +48,7 @@ class Smoother {
   /// The shape of a triangle: 1 for equal sides, 0 for no area, negative when clockwise.
   double shape(int a, int b, int c) const {
     const Point ab = points_[b] - points_[a], bc = points_[c] - points_[b], ca = points_[a] - points_[c];
-    constexpr double of_equal_sides = 3.4641016151377544;  // 2 sqrt(3)
-    return -of_equal_sides * cross(ab, ca) / (ab.squaredNorm() + bc.squaredNorm() + ca.squaredNorm());
+    return -2 * std::numbers::sqrt3 * cross(ab, ca) / (ab.squaredNorm() + bc.squaredNorm() + ca.squaredNorm());
   }
 
   int opposite(int triangle, int p, int q) const {

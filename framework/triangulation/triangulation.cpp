@@ -145,7 +145,7 @@ class Round {
     constexpr double first = 0.25, last = 0.01;  // of the shortest edge there
     for (double step = first * reach; step > last * reach; step *= 0.5) {
       const Point center = best_place;
-      constexpr double h = 0.7071067811865476;  // 1/sqrt(2)
+      const double h = std::numbers::sqrt2 / 2;
       for (const Point& way : {Point(1, 0), Point(h, h), Point(0, 1), Point(-h, h), Point(-1, 0), Point(-h, -h),
                                Point(0, -1), Point(h, -h)}) {
         attempt(center + step * way);

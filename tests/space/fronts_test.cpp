@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, Fronts, testing::Values(Bodies::hexahedra, Bodi
 
 TEST_P(Fronts, GoClockwiseAroundTheirFracturesAsSeenFromThePlusSide) {
   const Mesh mesh = box_with_fractures();
-  const std::vector<Front> found = fronts(mesh);
+  const std::vector<FrontLine> found = fronts(mesh);
   ASSERT_EQ(found.size(), 2U);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(found[i].fracture, i);

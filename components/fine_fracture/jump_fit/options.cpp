@@ -1,5 +1,7 @@
 #include "components/fine_fracture/jump_fit/options.hpp"
 
+#include <fmt/format.h>
+
 #include "framework/types.hpp"
 
 namespace sprekk::fine_fracture {
@@ -42,6 +44,13 @@ Spec JumpFitOptions::spec() {
                            : "What is left out behind the front, in sizes of the cells there, unless too few cells are "
                              "left: the error of their jumps does not become smaller with the cells."});
   return spec;
+}
+
+void note_without_jumps(const std::string& name, Notes& notes) {
+  notes.add(name + " without a coupler",
+            fmt::format("{} has no factors (no coupler gives it the jumps of the rock) add a coupler two_level between "
+                        "the rock and {}",
+                        name, name));
 }
 
 }  // namespace sprekk::fine_fracture

@@ -1,6 +1,9 @@
 // The parameters of tips whose factors follow from jumps.
 #pragma once
 
+#include <string>
+
+#include "framework/assembly/notes.hpp"
 #include "framework/config/spec.hpp"
 #include "framework/types.hpp"
 
@@ -14,5 +17,10 @@ struct JumpFitOptions {
   int leave_out = dimension == 2 ? 1 : 2;  ///< cells at the tip that it does not go through
   Spec spec();
 };
+
+/// Of the factors: a change by one cell less in their fit, from which on a note tells of it.
+inline constexpr double uncertain = 0.1;
+
+void note_without_jumps(const std::string& name, Notes& notes);
 
 }  // namespace sprekk::fine_fracture

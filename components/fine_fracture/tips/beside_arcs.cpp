@@ -4,13 +4,13 @@
 
 #include "components/fine_fracture/fine_level/outline.hpp"
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fine_fracture {
 
 namespace {
 
 constexpr double reach_over_height = 4;  ///< distances of places change by a third at most
-constexpr double on_the_arc = 1e-9;      ///< of the chord
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Point BesideArcs::moved(const Arc& arc, const Point& x) {
   if (place <= 0 || place >= arc.length || std::abs(across) >= arc.reach) return x;
   const double part = place < arc.middle ? place / arc.middle : (arc.length - place) / (arc.length - arc.middle);
   const double height = part * arc.height;
-  if (std::abs(across - height) <= on_the_arc * arc.length) return x;
+  if (std::abs(across - height) <= rounding::same * arc.length) return x;
   const double room = across > height ? arc.reach - height : arc.reach + height;
   return x + ((across - height) * arc.reach / room - across) * arc.normal;
 }

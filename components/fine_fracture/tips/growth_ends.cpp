@@ -6,6 +6,8 @@
 
 #include "components/fine_fracture/tips/tips.hpp"
 #include "framework/assembly/notes.hpp"
+#include "framework/noticeable.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -97,12 +99,11 @@ void Tips::note_step(Notes& notes, const StepTime&) const {
 
 /// A square that lies in rock with slanted sides may be too small for its coarse mesh (check_size).
 void Tips::note_narrow_square(const Tip& tip, Notes& notes) const {
-  constexpr double rounding = 1e-9;  // of the square: rounding of positions
   const std::vector<Point>& outline = tip.domain.geometry.outline;
   if (outline.empty()) return;
   const double reach = reach_in_rock(mesh_, outline, position(tip, {})),
                least = std::min(tip.coarse_size, 0.5 * options_.size);
-  if (reach >= (1 - rounding) * least) return;
+  if (reach >= (1 - rounding::same) * least) return;
   const std::string name = this->name() + "." + tip.name;
   notes.add("small square around " + name,
             fmt::format("the square around {} reaches {:.3g} m, less than an edge of the coarse level ({:.3g} m): a "
@@ -114,11 +115,11 @@ void Tips::note_narrow_square(const Tip& tip, Notes& notes) const {
 
 /// Where walls touch at the tip of a wing they carry the load, and K_I = 0; those of the fine level are open there.
 void Tips::note_shear(const Tip& tip, Notes& notes) const {
-  constexpr double near = 0.9;     // to growth: the note comes before they turn
-  constexpr double closed = 0.01;  // of the toughness: walls that touch have a K_I of this size from round-off
+  constexpr double near = 0.9;  // to growth: the note comes before they turn
   const Sifs &sifs = tip.now.sifs, touching{0, sifs.k2, sifs.t_stress};
   const double toughness = this->toughness(tip), load = equivalent_sif(touching) / toughness;
-  if (!tip.now.has_started || !tip.now.is_evaluated || tip.now.is_stopped || sifs.k1 > closed * toughness ||
+  // Walls that touch have a small K_I from round-off.
+  if (!tip.now.has_started || !tip.now.is_evaluated || tip.now.is_stopped || sifs.k1 > noticeable * toughness ||
       load < near)
     return;
   const std::string name = this->name() + "." + tip.name;

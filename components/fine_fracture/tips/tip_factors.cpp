@@ -8,6 +8,7 @@
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
 #include "framework/mesh/plane/original_end.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
@@ -42,15 +43,14 @@ void Tips::check_rock(const Tip& tip) const try {
 }
 
 void Tips::check_stiffness(const FineDomain& domain, const LameParameters& rock) const {
-  constexpr int across = 16;          // places where the stiffness is compared
-  constexpr double round_off = 1e-9;  // of a stiffness
+  constexpr int across = 16;  // places where the stiffness is compared
   const Point low = domain.geometry.outline[0], size = domain.geometry.outline[2] - low;
   for (int i = 0; i <= across; ++i)
     for (int k = 0; k <= across; ++k) {
       const Point x = low + size.cwiseProduct(Point(double(i) / across, double(k) / across));
       const LameParameters there = surroundings_->stiffness(x);
-      if (std::abs(there.shear - rock.shear) <= round_off * rock.shear &&
-          std::abs(there.lambda - rock.lambda) <= round_off * std::abs(rock.lambda))
+      if (std::abs(there.shear - rock.shear) <= rounding::same * rock.shear &&
+          std::abs(there.lambda - rock.lambda) <= rounding::same * std::abs(rock.lambda))
         continue;
       throw UnsuitableRock(fmt::format("the rock at ({:.4g} m, {:.4g} m) has a shear modulus of {:.4g} Pa, and {:.4g} "
                                        "Pa at a tip with this place in its square",

@@ -4,6 +4,7 @@
 #include "components/fine_fracture/tips/ends.hpp"
 #include "components/fine_fracture/tips/tips.hpp"
 #include "framework/mesh/plane/planar.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fine_fracture {
 
@@ -84,8 +85,7 @@ FineLoads Tips::loads_of(const Tip& tip) const {
     };
   // Jumps are asked for at the ends of segments, too. At a junction each segment has its own jump: the place is moved
   // into the segment by a rounding error.
-  constexpr double rounding = 1e-9;  // of a segment: round-off of lengths
-  const double inside = mesh_.junctions.empty() ? 0 : rounding;
+  const double inside = mesh_.junctions.empty() ? 0 : rounding::same;
   loads.wall_jump = [this, &domain, arc, inside](int crack, int segment, double s) {
     return surroundings_->wall_jump(domain.sources[crack].fracture, arc(crack, segment, s + inside * (0.5 - s)));
   };

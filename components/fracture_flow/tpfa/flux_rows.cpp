@@ -6,6 +6,7 @@
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "components/fracture_flow/tpfa/half_cell_apertures.hpp"
 #include "components/fracture_flow/tpfa/junction_apertures.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/ridge_distance.hpp"
 
 namespace sprekk::fracture_flow {
@@ -231,9 +232,7 @@ void FractureFlow::derive_by_state(Assembly& assembly, const std::vector<Triplet
     for (const Triplet& entry : entries)
       if (entry.col() / count == kind)
         own.emplace_back(entry.row(), entry.col() % count * components + by.component, by.factor * entry.value());
-    SparseMatrix matrix(ridges, by.field->size());
-    matrix.setFromTriplets(own.begin(), own.end());
-    assembly.derivative(flux_, *by.field, std::move(matrix));
+    assembly.derivative(flux_, *by.field, matrix_of(ridges, by.field->size(), own));
   };
   derive(0, {&aperture_});
   for (std::size_t k = 0; k < named_.size(); ++k)
@@ -262,9 +261,7 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
   assembly.compare_round_off(flux_, rows.largest_pressure);
   assembly.diagonal(flux_, flux_, rows.of_flux);
   if (!assembly.wants_derivatives()) return;
-  SparseMatrix pressures(ridges, count);
-  pressures.setFromTriplets(rows.by_pressure.begin(), rows.by_pressure.end());
-  assembly.derivative(flux_, pressure_, std::move(pressures));
+  assembly.derivative(flux_, pressure_, matrix_of(ridges, count, rows.by_pressure));
   derive_by_state(assembly, rows.by_aperture);
   if (density_) assemble_density(assembly, rows);
   // A closed end has no flux. Its column would have no other entry, and its scale would be free.
@@ -272,9 +269,7 @@ void FractureFlow::assemble_fluxes(Assembly& assembly, const StepTime& step) con
   for (const Link& link : links_) flows[link.ridge] = true;
   std::erase_if(rows.by_flux, [&](const Triplet& entry) { return !flows[entry.col()]; });
   if (rows.by_flux.empty()) return;
-  SparseMatrix fluxes(ridges, ridges);
-  fluxes.setFromTriplets(rows.by_flux.begin(), rows.by_flux.end());
-  assembly.derivative(flux_, flux_, std::move(fluxes));
+  assembly.derivative(flux_, flux_, matrix_of(ridges, ridges, rows.by_flux));
 }
 
 /// A row is divided by its conductance plus the conductance that corresponds to the storage of a cell: it is then well

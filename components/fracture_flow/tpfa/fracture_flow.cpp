@@ -6,6 +6,7 @@
 #include "framework/field/counted_amounts.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/mesh_change.hpp"
 #include "framework/scene/fracture_set.hpp"
 
@@ -303,8 +304,7 @@ void FractureFlow::assemble(Assembly& assembly, const StepTime& step) const {
     else
       leaving[link.first] += step.dt * flux_.now()[link.ridge];
   }
-  SparseMatrix divergence(count, flux_.size());
-  divergence.setFromTriplets(outflow.begin(), outflow.end());
+  SparseMatrix divergence = matrix_of(count, flux_.size(), outflow);
   // In a steady flow, the residual is the round-off of fluxes that cancel.
   fluid.exchange(divergence * flux_.now(), leaving, step.dt * flux_.now().lpNorm<Eigen::Infinity>());
   assembly.derivative(pressure_, flux_, std::move(divergence));

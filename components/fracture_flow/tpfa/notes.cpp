@@ -5,20 +5,16 @@
 #include <cmath>
 #include <set>
 
+#include "components/capabilities/fluid_at_start.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/noticeable.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fracture_flow {
 
 namespace {
-
-constexpr double beyond_every_load = 1e10;  // Pa, thirty times what the deepest borehole has above it
-/// What passes a wall, of what passes a crossing beside it, below which a note asks for what fills the crossing.
-constexpr double much_tighter = 0.01;
-constexpr double small_part_of_weight = 1e-2;  // of the fluid
-constexpr double part_that_may_vary = 1e-1;    // of its weight, where the density follows temperature and pressure
-constexpr double other_pressure = 1e-2;        // of the larger pressure at a wall: rounded pressures
 
 /// The sides that meet at the end of a fracture, as indices into Mesh::side_names: those of the outer faces, beside
 /// both walls of its last cell, that have the end as one of their ridges.
@@ -109,7 +105,7 @@ void FractureFlow::note_start(Notes& notes) const {
   if (options_.gravity.is_zero()) return;
   double worst = 0;
   std::string text;
-  const double small = density_ ? part_that_may_vary : small_part_of_weight;
+  const double small = density_ ? part_that_may_vary : noticeable;
   const Vector& pressure = pressure_.now();
   for (const Link& link : links_) {
     if (link.second == none) continue;
@@ -147,8 +143,7 @@ void FractureFlow::note_start_at_walls(Notes& notes) const {
     const double weight = weight_between(mesh_.cell_center[behind], at.center), misfit = std::abs(own - rock - weight);
     // Where the rock's pressure varies, that of its cell is another than that at the wall.
     const double around = std::abs(in_rock[mesh_.face_cells[mesh_.wall_face(wall ^ 1)][0]] - rock);
-    if (misfit <= other_pressure * std::max(std::abs(own), std::abs(rock)) + std::abs(weight) + around ||
-        misfit <= worst)
+    if (misfit <= noticeable * std::max(std::abs(own), std::abs(rock)) + std::abs(weight) + around || misfit <= worst)
       continue;
     worst = misfit;
     text = fmt::format(
@@ -220,7 +215,7 @@ void FractureFlow::note_crossings(Notes& notes) const {
         if (fracture_of(barrier) == fracture_of(cell) || !goes_on(cell) || !goes_on(barrier)) continue;
         const double through_wall = tighter_wall(barrier) * initial_aperture_[cell];
         if (!is_in_fracture_cell(cell) || !is_in_fracture_cell(barrier) || halves[i].value == 0 ||
-            through_wall > much_tighter * halves[i].value || tighter_wall(barrier) > much_tighter * tighter_wall(cell))
+            through_wall > noticeable * halves[i].value || tighter_wall(barrier) > noticeable * tighter_wall(cell))
           continue;
         const std::string &passing = mesh_.fractures[fracture_of(cell)].name,
                           &passed = mesh_.fractures[fracture_of(barrier)].name;
@@ -254,10 +249,9 @@ void FractureFlow::note_step(Notes& notes, const StepTime&) const {
                     aperture_.name(), narrowest, to_text(mesh_.fracture_cells[least].center)),
         -narrowest);
   if (!empty_) return;
-  constexpr double rounding = 1e-6;  // of the largest aperture, far above round-off of a balance
   Eigen::Index worst = 0;
   const double lacking = (empty_->now() - aperture_.now()).maxCoeff(&worst);
-  if (lacking > rounding * aperture_.now().maxCoeff())
+  if (lacking > rounding::far_above * aperture_.now().maxCoeff())
     notes.add(empty_->name() + " below nothing",
               fmt::format("{:.3g} m more fluid than there is leave the fracture of '{}' at {} (its pressure is held at "
                           "the bound, and what is around it takes fluid all the same) raise 'cavitation' to the lowest "

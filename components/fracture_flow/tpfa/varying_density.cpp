@@ -2,6 +2,7 @@
 #include "components/fracture_flow/tpfa/flux_rows.hpp"
 #include "components/fracture_flow/tpfa/fracture_flow.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -45,8 +46,7 @@ double FractureFlow::varying_weight(const Link& link) const {
 }
 
 void FractureFlow::assemble_density(Assembly& assembly, const FluxRows& rows) const {
-  SparseMatrix of_cells(flux_.size(), mesh_.fracture_cell_count());
-  of_cells.setFromTriplets(rows.by_density.begin(), rows.by_density.end());
+  const SparseMatrix of_cells = matrix_of(flux_.size(), mesh_.fracture_cell_count(), rows.by_density);
   for (const FluidDensity::Derivative& by : density_->derivatives())
     assembly.derivative(flux_, *by.field, SparseMatrix(of_cells * by.values.asDiagonal()));
 }

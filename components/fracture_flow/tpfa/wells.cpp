@@ -8,10 +8,12 @@
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/units_of_amounts.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/mesh/search/distances.hpp"
 #include "framework/mesh/search/point_location.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fracture_flow {
 
@@ -52,7 +54,6 @@ void FractureFlow::check_names() const {
 
 /// The pressure between two points with prescribed pressures is not resolved where both lie between the same centres.
 void FractureFlow::check_points_apart() const {
-  constexpr double at_centre = 1e-6;  // of a half cell: far above round-off
   struct Taken {
     const std::string* name;
     Point end;
@@ -64,11 +65,11 @@ void FractureFlow::check_points_apart() const {
     Point position = *given.where.at;
     if constexpr (dimension == 2) {
       const auto [end, to_end] = spot(cell, position);
-      if (to_end < at_centre) continue;
+      if (to_end < rounding::far_above) continue;
       position = mesh_.ridges[end].center;
     }
     for (const Taken& other : taken)
-      if ((other.end - position).norm() < at_centre * mesh_.fracture_cells[cell].size())
+      if ((other.end - position).norm() < rounding::far_above * mesh_.fracture_cells[cell].size())
         throw InputError(given.where.origin, "'" + name + "' prescribes a pressure where there is one",
                          "'" + *other.name + "' gives " +
                              (dimension == 2 ? "a point one that lies between the same centres of cells, around "
@@ -225,9 +226,7 @@ void FractureFlow::assemble_prescribed_points(Assembly& assembly, const StepTime
     for (const auto& [cell, by] : rise.by_aperture) by_aperture.emplace_back(k, cell, by * rate.now()[k]);
   }
   const auto matrix = [](const std::vector<Triplet>& entries, int rows, int columns) {
-    SparseMatrix matrix(rows, columns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
+    return matrix_of(rows, columns, entries);
   };
   if (assembly.has_row(pressure_)) {
     SparseMatrix of_cells = matrix(into, cells, count);

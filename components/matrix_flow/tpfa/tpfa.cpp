@@ -5,6 +5,8 @@
 #include "components/matrix_flow/check_conditions.hpp"
 #include "framework/discretization/changes_along_face.hpp"
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::matrix_flow {
 
@@ -21,11 +23,10 @@ double half_transmissibility(const Mesh& mesh, const Tensor& mobility, int cell,
 /// Whether the flux of a linear pressure is exact between the centre of a cell and that of its face: K n is along them.
 /// In a plane it is enough that K n is along n: that triangles are not orthogonal is no surprise, and errs less.
 bool is_consistent(const Mesh& mesh, const Tensor& mobility, int cell, int face) {
-  constexpr double round_off = 1e-6;  // of the distance: round-off of coordinates
   const Point& normal = mesh.face_normal[face];
   const Point conducted = mobility * normal;
   const Point way = dimension == 2 ? normal : Point(mesh.face_center[face] - mesh.cell_center[cell]);
-  return (way - normal.dot(way) / normal.dot(conducted) * conducted).norm() <= round_off * way.norm();
+  return (way - normal.dot(way) / normal.dot(conducted) * conducted).norm() <= rounding::far_above * way.norm();
 }
 
 }  // namespace
@@ -67,9 +68,7 @@ FluxOperators discretize_tpfa(const Mesh& mesh, const std::vector<Tensor>& mobil
     }
   }
   const auto assemble = [&](const std::vector<Triplet>& entries, int columns) {
-    SparseMatrix matrix(mesh.face_count(), columns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
+    return matrix_of(mesh.face_count(), columns, entries);
   };
   const auto nothing = [&](int columns) { return SparseMatrix(mesh.face_count(), columns * mesh.face_count()); };
   return {assemble(flux_cell, mesh.cell_count()),

@@ -6,11 +6,10 @@
 #include "framework/invariants.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/search/point_location.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-constexpr double same_place = 1e-9;  // of the size of a cell: above round-off, below what shows
 
 using Shares = std::vector<std::pair<int, double>>;
 
@@ -41,8 +40,8 @@ Shares mean_value_shares(const Mesh& mesh, const std::vector<int>& ring, const P
   for (std::size_t k = 0; k < count; ++k) {
     const Point one = mesh.cell_center[ring[k]] - x, next = mesh.cell_center[ring[(k + 1) % count]] - x;
     const double lengths = one.norm() * next.norm(), turn = cross(one, next), along = lengths + one.dot(next);
-    if (turn < -same_place * lengths) return {};
-    if (along <= same_place * lengths)  // on the line between both
+    if (turn < -rounding::same * lengths) return {};
+    if (along <= rounding::same * lengths)  // on the line between both
       return {{ring[k], next.norm() / (one.norm() + next.norm())},
               {ring[(k + 1) % count], one.norm() / (one.norm() + next.norm())}};
     tangents.push_back(std::max(turn, 0.0) / along);
@@ -123,7 +122,8 @@ PointSource point_source(const Mesh& mesh, const Point& x, const std::function<b
   SPREKK_EXPECT(is_finite(x));
   const int home = PointLocation(mesh).cell_at(x);
   if (home == none) return {x, {}};
-  if ((mesh.cell_center[home] - x).norm() <= same_place * std::sqrt(mesh.cell_measure[home])) return {x, {{home, 1.0}}};
+  if ((mesh.cell_center[home] - x).norm() <= rounding::same * std::sqrt(mesh.cell_measure[home]))
+    return {x, {{home, 1.0}}};
   for (const int node : mesh.cell_nodes[home]) {
     const std::vector<int> ring = ring_around(mesh, node);
     const bool may = std::ranges::all_of(ring, [&](int cell) { return cell == home || may_share(cell); });

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 
 #include "framework/invariants.hpp"
 #include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -88,9 +88,7 @@ class Terms {
 std::string find_singularity(const LinearSystem& system, const SparseMatrix& rows,
                              const ApplyInverse& apply_inverse) {
   constexpr double suspicious = 1e8;  // a singular matrix grows a random vector by 1e16 / sqrt(n), roughly
-  constexpr double lost = 1e-8;       // half of all digits: a null vector shows 1e-11 at most, others 0.1
   constexpr double singular = 3e-15;  // a floating rock shows 1e-16; an open fracture in tight rock has 5e-15
-  constexpr double rounded = 1e-13;   // in a row: some hundred roundings
   Vector v = scattered_unit_vector(static_cast<int>(rows.cols()))(system.rows);
   apply_inverse(v);
   if (!(v.norm() >= suspicious)) return "";
@@ -100,8 +98,8 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
   // vector alone. Twice, since what does not grow is as large as before.
   const Terms terms(system, rows, apply_inverse);
   v = terms.response(v, 0);
-  v = terms.response(v, noticeable);
-  if (!(terms.worst_row(v) <= lost)) return "";
+  v = terms.response(v, noticeable);  // a null vector shows 1e-11 at most below, others 0.1
+  if (!(terms.worst_row(v) <= rounding::half_of_digits)) return "";
 
   // The step v - A^-1 A v leaves a null vector of A as it is and removes the error that the factors put into it.
   double smallest = HUGE_VAL;
@@ -119,7 +117,7 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
     v -= residual;
     normalize(v);
   }
-  if (!(smallest <= singular) || !(terms.worst_row(best) <= rounded)) return "";
+  if (!(smallest <= singular) || !(terms.worst_row(best) <= rounding::of_terms)) return "";
   int largest_entry = 0;
   best.cwiseAbs().maxCoeff(&largest_entry);
   char text[160];

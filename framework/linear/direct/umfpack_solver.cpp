@@ -14,6 +14,7 @@
 #include "framework/linear/stopwatch.hpp"
 #include "framework/linear/unknown_names.hpp"
 #include "framework/parallel/alone.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -156,8 +157,7 @@ LinearReport UmfpackSolver::factor_values() {
 
   // The ratio of the pivots costs nothing and is small for every matrix that is singular to working precision; it may
   // be small for good ones too, so those are looked at more closely.
-  constexpr double suspicious = 1e-8;
-  if (info[UMFPACK_RCOND] < suspicious) {
+  if (info[UMFPACK_RCOND] < rounding::half_of_digits) {
     const std::string reason = find_singularity(system_, a, [this](Vector& v) { apply_inverse(v); });
     if (!reason.empty()) return LinearReport::failure(reason);
   }

@@ -165,11 +165,10 @@ LinearReport BelosSolver::solve(const Vector& b_rows, Vector& x) {
     const Vector left = restart == 0 ? r : left_to_solve(r, measured, some_are_left ? tolerance_ : rounding);
     const double left_before = left_norm;
     left_norm = std::sqrt(parallel::sum(left.squaredNorm()));
-    // A smaller gain ends the restarts, as usual for iterative refinement. For a block whose solution is zero only the
-    // residual falls, and the ratio does not.
-    constexpr double hardly_better = 0.5;
-    const bool stalls = restart > 1 && !(measured.largest_ratio < hardly_better * ratio_before) &&
-                        !(left_norm < hardly_better * left_before);
+    // A smaller gain than half ends the restarts, as usual for iterative refinement. For a block whose solution is zero
+    // only the residual falls, and the ratio does not.
+    const bool stalls =
+        restart > 1 && !(measured.largest_ratio < 0.5 * ratio_before) && !(left_norm < 0.5 * left_before);
     if (left_norm == 0 || stalls) break;
     try {
       step = data_->gmres->solve(left, std::clamp(wanted_norm / left_norm, deepest, shallowest),

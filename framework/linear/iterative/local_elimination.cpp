@@ -13,7 +13,9 @@
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/gather_entries.hpp"
 #include "framework/linear/iterative/sparse_product.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -30,8 +32,7 @@ std::vector<std::vector<int>> unknowns_by_cell(const LinearSystem& system, const
     low = low.size() == 0 ? lowest : low.cwiseMin(lowest);
     high = high.size() == 0 ? highest : high.cwiseMax(highest);
   }
-  constexpr double same_place = 1e-8;  // of the extent of the fractures: far below a cell
-  const double spacing = low.size() == 0 ? 0 : (high - low).maxCoeff() * same_place;
+  const double spacing = low.size() == 0 ? 0 : (high - low).maxCoeff() * rounding::half_of_digits;
 
   std::map<CellKey, std::vector<int>> cells;
   const int local = static_cast<int>(partition.parts.size()) - 1;
@@ -263,8 +264,7 @@ LocalElimination::LocalElimination(const LinearSystem& system, const Partition& 
       for (int j = 0; j < size; ++j)
         if (block(i, j) != 0) inverses.emplace_back(cell[i], cell[j], block(i, j));
   }
-  cell_inverses_ = SparseMatrix(unknowns, unknowns);
-  cell_inverses_.setFromTriplets(inverses.begin(), inverses.end());
+  cell_inverses_ = matrix_of(unknowns, unknowns, inverses);
   std::sort(together_.begin(), together_.end());
 }
 
@@ -297,8 +297,7 @@ std::vector<Triplet> LocalElimination::answers_together(const SparseMatrix& colu
       for (SparseMatrix::InnerIterator entry(local_, together_[k]); entry; ++entry)
         if (place[entry.col()] >= 0) entries.emplace_back(k, place[entry.col()], entry.value());
     LinearSystem alone;
-    alone.local = SparseMatrix(size, size);
-    alone.local.setFromTriplets(entries.begin(), entries.end());
+    alone.local = matrix_of(size, size, entries);
     alone.rows.resize(size);
     std::iota(alone.rows.begin(), alone.rows.end(), 0);
     const LinearReport report = together_solver_.factor(alone);
@@ -310,8 +309,7 @@ std::vector<Triplet> LocalElimination::answers_together(const SparseMatrix& colu
   for (int k = 0; k < size; ++k)
     for (SparseMatrix::InnerIterator entry(columns, together_[k]); entry; ++entry)
       sources.emplace_back(static_cast<int>(entry.col()), k, entry.value());
-  SparseMatrix by_column(columns.cols(), size);
-  by_column.setFromTriplets(sources.begin(), sources.end());
+  const SparseMatrix by_column = matrix_of(columns.cols(), size, sources);
   for (int column = 0; column < by_column.rows(); ++column) {
     if (by_column.outerIndexPtr()[column] == by_column.outerIndexPtr()[column + 1]) continue;
     Vector answer = Vector::Zero(size);
@@ -366,8 +364,7 @@ SparseMatrix LocalElimination::correction(const LinearSystem& system, const Part
   SparseMatrix product = sparse_product(bulk_from_local, sparse_product(cell_inverses_, from_bulk));
   const std::vector<Triplet> answers = answers_together(from_bulk);
   if (!answers.empty()) {
-    SparseMatrix together(from_bulk.rows(), from_bulk.cols());
-    together.setFromTriplets(answers.begin(), answers.end());
+    const SparseMatrix together = matrix_of(from_bulk.rows(), from_bulk.cols(), answers);
     product += SparseMatrix(bulk_from_local * together);
   }
   product *= -1.0;

@@ -11,9 +11,11 @@
 #include "framework/linear/reduction/bulk_splitting.hpp"
 #include "framework/linear/reduction/floating_parts.hpp"
 #include "framework/linear/stopwatch.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/parallel/alone.hpp"
 #include "framework/parallel/gathered.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -47,9 +49,7 @@ SparseMatrix pattern_of_reduced(const BulkSplitting& split) {
     if (split.fb.has_row(row))
       for (const int column : split.interface_columns) entries.emplace_back(row, column, 0.0);
   }
-  SparseMatrix pattern(split.local_size(), split.local_size());
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  return pattern;
+  return matrix_of(split.local_size(), split.local_size(), entries);
 }
 
 /// A_FF - A_FB X.
@@ -88,7 +88,6 @@ SparseMatrix reduced_matrix(const BulkSplitting& split, const SparseMatrix& patt
 /// of the bulk, or too weakly to be seen after the elimination.
 bool is_lost(const BulkSplitting& split, const SparseMatrix& reduced,
              const BulkSchurComplement::RowMatrix& schur_rows) {
-  constexpr double lost = 1e-13;  // of the terms of an entry, each of them a sum of many: some hundred roundings
   std::vector<char> is_felt(split.local_size(), 0);
   int schur_row = 0;
   for (int row = 0; row < reduced.rows(); ++row) {
@@ -101,7 +100,7 @@ bool is_lost(const BulkSplitting& split, const SparseMatrix& reduced,
       double terms = std::abs(split.ff.matrix.coeff(row, column));
       if (k >= 0 && c < split.interface_columns.size() && split.interface_columns[c] == column)
         terms += std::abs(schur_rows(k, static_cast<Eigen::Index>(c)));
-      is_felt[column] |= std::abs(entry.value()) > lost * terms;
+      is_felt[column] |= std::abs(entry.value()) > rounding::of_terms * terms;
     }
   }
   for (int column = 0; column < split.local_size(); ++column)

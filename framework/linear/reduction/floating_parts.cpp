@@ -10,12 +10,12 @@
 #include "framework/linear/expect_sound.hpp"
 #include "framework/linear/rigid_rotations.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
 constexpr int most_modes = most_axes + most_rotations;
-constexpr double resists = 1e-8;  ///< over the terms of the balances: half of the digits
 using Modes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
 using OfMode = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_modes>;
 
@@ -53,15 +53,14 @@ class Parts {
     std::vector<int> chosen;
     for (const Part& part : parts_) {
       if (part.is_held) continue;
-      constexpr double hardly_moves = 1e-6;   // motion that counts as none, over the largest one: the choice is free
       constexpr double much_preferred = 1e3;  // larger than ratios of motions by the shapes of parts
       constexpr double is_fixed = 0.1;        // of the largest singular value of an entity's motions
       const Eigen::JacobiSVD<Modes> svd(part.triangle, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      const int held = static_cast<int>((svd.singularValues().array() > resists).count());
+      const int held = static_cast<int>((svd.singularValues().array() > rounding::half_of_digits).count());
       Modes left = svd.matrixV().rightCols(part.modes - held);
       while (left.cols() > 0) {
         int best = -1;
-        double most = hardly_moves;
+        double most = rounding::far_above;
         for (const int entity : part.entities) {
           const double moves = (motion(part, entity) * left).norm() * (preferred[entity] ? much_preferred : 1);
           if (moves > most) {
@@ -166,7 +165,7 @@ class Parts {
     add(w / size, part->triangle);
     constexpr int between_looks = 32;  // balances: a look is cheap beside them
     if (++part->balances % between_looks == 0)
-      part->is_held = Eigen::JacobiSVD<Modes>(part->triangle).singularValues().minCoeff() > resists;
+      part->is_held = Eigen::JacobiSVD<Modes>(part->triangle).singularValues().minCoeff() > rounding::half_of_digits;
   }
 
   /// R^T R grows by w^T w. Givens rotations keep small motions apart from large ones, where a matrix of products would

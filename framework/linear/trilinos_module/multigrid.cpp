@@ -7,6 +7,7 @@
 
 #include "framework/linear/rigid_rotations.hpp"
 #include "framework/linear/trilinos_module/tpetra_conversion.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -53,8 +54,7 @@ RCP<tpetra::MultiVector> make_near_null_space(const std::vector<int>& entities, 
   Coordinates centre = Coordinates::Zero(block.components);
   for (int entity = 0; entity < block.entities; ++entity) centre += block.coordinates.col(entity) / block.entities;
   const Coordinates low = block.coordinates.rowwise().minCoeff(), high = block.coordinates.rowwise().maxCoeff();
-  constexpr double above_zero = 1e-300;  // m, for a block of one place: no division by zero
-  const double extent = std::max((high - low).maxCoeff(), above_zero);
+  const double extent = std::max((high - low).maxCoeff(), rounding::above_zero);
   for (int rotation = 0; rotation < rotations; ++rotation) {
     const Teuchos::ArrayRCP<double> data = modes->getDataNonConst(translations + rotation);
     for (std::size_t k = 0; k < entities.size(); ++k) {

@@ -22,19 +22,19 @@ class Edges {
   }
 
   /// Joins the edges to lines, those with two ends first. Takes the edges away.
-  std::vector<Front> lines(int fracture) {
+  std::vector<FrontLine> lines(int fracture) {
     std::vector<int> starts;
     for (const auto& [node, edge] : from_)
       if (!ends_.contains(node)) starts.push_back(node);
-    std::vector<Front> found;
+    std::vector<FrontLine> found;
     for (const int node : starts) found.push_back(line_from(fracture, node));
     while (!from_.empty()) found.push_back(line_from(fracture, from_.begin()->first));
     return found;
   }
 
  private:
-  Front line_from(int fracture, const int start) {
-    Front front{fracture, {}, {}, false};
+  FrontLine line_from(int fracture, const int start) {
+    FrontLine front{fracture, {}, {}, false};
     int node = start;
     for (auto next = from_.find(node); next != from_.end(); next = from_.find(node)) {
       front.ridges.push_back(next->second.first);
@@ -54,14 +54,14 @@ class Edges {
 
 }  // namespace
 
-std::vector<Front> fronts(const Mesh& mesh) {
+std::vector<FrontLine> fronts(const Mesh& mesh) {
   std::vector<Edges> of_fracture(mesh.fractures.size(), Edges(mesh));
   for (int ridge = 0; ridge < static_cast<int>(mesh.ridges.size()); ++ridge)
     if (mesh.ridges[ridge].kind == Ridge::Kind::tip)
       of_fracture[mesh.fracture_cells[mesh.ridges[ridge].cells[0]].fracture].add(ridge);
-  std::vector<Front> all;
+  std::vector<FrontLine> all;
   for (int fracture = 0; fracture < static_cast<int>(of_fracture.size()); ++fracture)
-    for (Front& front : of_fracture[fracture].lines(fracture)) all.push_back(std::move(front));
+    for (FrontLine& front : of_fracture[fracture].lines(fracture)) all.push_back(std::move(front));
   return all;
 }
 

@@ -9,7 +9,7 @@ namespace sprekk {
 
 /// A line of ridges of the kind `tip` of one fracture, in order: as seen from the plus side, clockwise around the
 /// fracture. It is closed, or ends on sides and where fractures meet.
-struct Front {
+struct FrontLine {
   int fracture;
   std::vector<int> ridges;
   std::vector<RimEdge> edges;  ///< of the ridges; their nodes in the direction of the front
@@ -17,6 +17,6 @@ struct Front {
 };
 
 /// All fronts, in the order of their fractures.
-std::vector<Front> fronts(const Mesh& mesh);
+std::vector<FrontLine> fronts(const Mesh& mesh);
 
 }  // namespace sprekk

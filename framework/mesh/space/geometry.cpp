@@ -3,15 +3,9 @@
 #include <Eigen/Geometry>
 
 #include "framework/mesh/space/face_triangles.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
-namespace {
-
-/// A face is horizontal whose normal is nearer than this to the vertical, rad: its strike would be round-off.
-constexpr double horizontal = 1e-6;
-
-}  // namespace
-
 Measured cell_geometry(const std::vector<Point>& nodes, const CellNodes& cell) {
   // Relative to a corner, so that coordinates far from the origin cost no digits.
   const Point origin = nodes[cell[0]];
@@ -51,7 +45,7 @@ Tangents tangents_of(const Point& normal) {
   Tangents tangents;
   const Point strike = Point::UnitZ().cross(normal);
   const Point along_x = Point::UnitX() - normal.x() * normal;
-  tangents.col(0) = (strike.norm() > horizontal ? strike : along_x).normalized();
+  tangents.col(0) = (strike.norm() > rounding::far_above ? strike : along_x).normalized();
   tangents.col(1) = normal.cross(tangents.col(0));
   return tangents;
 }

@@ -6,12 +6,10 @@
 
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-/// Six times the volume at a corner over the cube of the longest edge, below which geometry is lost to rounding.
-constexpr double smallest_flatness = 1e-10;
 
 CellNodes mirrored(const CellNodes& cell) {
   CellNodes nodes = cell;
@@ -52,7 +50,7 @@ void require_sound_cell(const std::vector<Point>& nodes, const CellNodes& cell) 
   }
   const double smallest = std::max(smallest_corner(nodes, cell), smallest_corner(nodes, mirrored(cell)));
   // The comparison is negated so that NaN is refused, too.
-  if (mean.allFinite() && smallest > smallest_flatness * longest * longest * longest) return;
+  if (mean.allFinite() && smallest > rounding::same * longest * longest * longest) return;
   const std::string name = shape_with(cell.size())->name;
   throw InputError("the " + name + " at " + to_text(mean) +
                    (cell.size() == 4

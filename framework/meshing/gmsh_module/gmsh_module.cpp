@@ -12,6 +12,8 @@
 namespace sprekk {
 namespace {
 
+constexpr int three_node_triangle = 2, four_node_tetrahedron = 4;  // gmsh's numbers of types
+
 /// gmsh numbers points, lines and nodes from 1.
 int tag(int number) { return number + 1; }
 
@@ -48,7 +50,6 @@ PlanarTriangles fetch_mesh(const PlanarLines& lines) {
   std::vector<double> coordinates, parameters;
   const std::vector<int> number = fetch_nodes(coordinates);
   for (std::size_t i = 0; i < coordinates.size(); i += 3) mesh.nodes.push_back({coordinates[i], coordinates[i + 1]});
-  constexpr int three_node_triangle = 2;
   gmsh::model::mesh::getElementsByType(three_node_triangle, elements, found);
   for (std::size_t i = 0; i + 2 < found.size(); i += 3)
     mesh.triangles.push_back({number[found[i]], number[found[i + 1]], number[found[i + 2]]});
@@ -237,7 +238,6 @@ Tetrahedra fetch_mesh(const std::vector<std::vector<int>>& surfaces) {
   for (std::size_t i = 0; i < coordinates.size(); i += 3)
     mesh.nodes.push_back({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
   std::vector<std::size_t> elements, nodes;
-  constexpr int three_node_triangle = 2, four_node_tetrahedron = 4;
   gmsh::model::mesh::getElementsByType(four_node_tetrahedron, elements, nodes);
   for (std::size_t i = 0; i + 3 < nodes.size(); i += 4)
     mesh.tetrahedra.push_back({number[nodes[i]], number[nodes[i + 1]], number[nodes[i + 2]], number[nodes[i + 3]]});

@@ -8,6 +8,9 @@
 
 namespace sprekk {
 
+/// Of an edge, or a segment: places where a wanted length is looked at. Half as many were tried, too.
+inline constexpr int samples_of_length = 64;
+
 /// Points that divide the segment into edges of about the length `size` (m) at their place, in the direction of the
 /// segment and without its ends; no points when a single edge fits best. With a constant size all edges are equally
 /// long.

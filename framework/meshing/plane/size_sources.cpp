@@ -4,13 +4,12 @@
 #include <numeric>
 
 #include "framework/mesh/mesh.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
 constexpr int in_a_block = 8;  // sources that are looked at one by one
-/// Round-off of a bound, which must not hide the source itself.
-constexpr double rounding = 1e-12;
 
 /// The smaller one of `size` and the size that the source asks for.
 double lowered_by(const SizeSource& source, double size, const Point& x) {
@@ -65,7 +64,8 @@ int SizeSources::grow(Tree& tree, int first, int last) const {
 /// A lower bound of what the sources of a branch ask for at x.
 double SizeSources::least(const Branch& branch, const Point& x) {
   const double away = (x - x.cwiseMax(branch.low).cwiseMin(branch.high)).norm();
-  return (1 - rounding) * (branch.size + branch.growth * away);
+  // A little less, so that the bound does not hide the source itself.
+  return (1 - rounding::of_terms) * (branch.size + branch.growth * away);
 }
 
 double SizeSources::lowered_by(const Tree& tree, int number, double size, const Point& x) const {

@@ -7,6 +7,7 @@
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/meshing/regions.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -36,8 +37,7 @@ struct Grid {
 /// The nodes along a segment, or nothing when it leaves the edges of the grid.
 std::optional<std::vector<int>> follow(const Grid& grid, const Segment& segment) {
   const Point width = grid.box.size().cwiseQuotient(Point(grid.cells[0], grid.cells[1]));
-  constexpr double same_place = 1e-6;  // of a cell: a fracture is moved by less onto the edges of the grid
-  const double tolerance = same_place * width.minCoeff();
+  const double tolerance = rounding::far_above * width.minCoeff();
   const auto is_at = [&](int i, int j, const Point& x) { return (grid.position(i, j) - x).norm() < tolerance; };
 
   const Point start = (segment.from - grid.box.low).cwiseQuotient(width);
@@ -98,9 +98,8 @@ Grid choose_grid(const Geometry& geometry, const MeshOptions& options) {
   Grid grid{geometry.box, options.cells, options.shape == MeshOptions::Shape::triangles, 0};
   for (int axis = 0; axis < 2; ++axis) {
     if (grid.cells[axis] > 0) continue;
-    constexpr double rounding = 1e-9;  // of quotients of a whole number of cells: round-off of one division
-    grid.cells[axis] =
-        std::max(1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - rounding)));
+    grid.cells[axis] = std::max(
+        1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - rounding::same)));
   }
   const std::optional<Astray> astray = first_off_grid(grid, geometry);
   if (!astray) return grid;

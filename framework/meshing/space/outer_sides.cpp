@@ -4,6 +4,7 @@
 
 #include "framework/mesh/face_table.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -56,10 +57,9 @@ void take_outer_sides(const Geometry& geometry, RawMesh& mesh) {
     mesh.boundary_faces.push_back({faces.nodes(face), part_or_side(geometry, side, of_face, areas)});
     for (const int node : faces.nodes(face)) mesh.nodes[node][side / 2] = level(geometry.box, side);
   }
-  constexpr double round_off = 1e-6;  // of an area
   for (std::size_t k = 0; k < areas.size(); ++k) {
     const SidePart& part = geometry.side_parts[k];
-    if (std::abs(areas[k] - area_of(part)) > round_off * area_of(part))
+    if (std::abs(areas[k] - area_of(part)) > rounding::far_above * area_of(part))
       throw InputError(part.origin, "the mesh does not follow '" + part.name + "'",
                        "its border cuts faces of the side '" + std::string(box_sides[part.side]) + "'",
                        "choose other cells or kind: unstructured");

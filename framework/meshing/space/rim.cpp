@@ -5,11 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "framework/round_off.hpp"
+
 namespace sprekk {
 namespace {
 
-constexpr int samples_of_rim = 192;   // of a function along a rim, between which it has one minimum at most
-constexpr double same_angle = 1e-13;  // rad, to which a minimum is found: round-off
+constexpr int samples_of_rim = 192;  // of a function along a rim, between which it has one minimum at most
 
 }  // namespace
 
@@ -72,7 +73,7 @@ void Rim::for_each_minimum(double reach, const std::function<double(const Point&
     double low = step * (k - 1), high = step * (k + 1);
     double left = high - part * (high - low), right = low + part * (high - low);
     double at_left = function(at(left)), at_right = function(at(right));
-    while (high - low > same_angle) {
+    while (high - low > rounding::of_terms) {
       if (at_left < at_right) {
         high = right, right = left, at_right = at_left;
         at_left = function(at(left = high - part * (high - low)));

@@ -11,6 +11,7 @@
 #include "framework/meshing/regions.hpp"
 #include "framework/meshing/space/flat_shape.hpp"
 #include "framework/meshing/space/outer_sides.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -70,12 +71,10 @@ struct Astray {
   Point at;
 };
 
-constexpr double same_place = 1e-6;  // of a cell: a fracture is moved by less onto the faces of the grid
-
 double tolerance_of(const Grid& grid) {
   double shortest = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) shortest = std::min(shortest, grid.box.size()[axis] / grid.cells[axis]);
-  return same_place * shortest;
+  return rounding::far_above * shortest;
 }
 
 /// The faces of the mesh that together are the polygon, or nothing.
@@ -98,7 +97,7 @@ std::optional<std::vector<FaceNodes>> follow(const RawMesh& mesh, const FaceTabl
     area += geometry.measure;
   }
   // Faces do not overlap: as large as the polygon, they are all of it.
-  if (std::abs(area - shape.area()) > same_place * shape.area()) return std::nullopt;
+  if (std::abs(area - shape.area()) > rounding::far_above * shape.area()) return std::nullopt;
   return found;
 }
 
@@ -169,9 +168,8 @@ RawMesh structured_mesh(const Geometry& geometry, const MeshOptions& options) {
   Grid grid{geometry.box, options.cells, options.shape, {0, 0, 0}};
   for (int axis = 0; axis < 3; ++axis) {
     if (grid.cells[axis] > 0) continue;
-    constexpr double rounding = 1e-9;  // of quotients of a whole number of cells: round-off of one division
-    grid.cells[axis] =
-        std::max(1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - rounding)));
+    grid.cells[axis] = std::max(
+        1, static_cast<int>(std::ceil(geometry.box.size()[axis] / far_size(geometry, options) - rounding::same)));
   }
   // Which of its two diagonals each grid plane begins with: of wedges along x and y, of tetrahedra along z as well.
   const int ways = grid.shape == CellShape::hexahedra ? 1 : grid.shape == CellShape::wedges ? 2 : 4;

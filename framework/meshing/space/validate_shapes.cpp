@@ -12,6 +12,7 @@
 #include "framework/meshing/space/region_borders.hpp"
 #include "framework/meshing/space/rim_gaps.hpp"
 #include "framework/meshing/space/sizes_in_space.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -19,8 +20,6 @@ namespace {
 /// Of the extent of a polygon: its corners may be so far from its plane, into which they are moved. OpenCASCADE takes
 /// lines nearer than 1e-7 for one.
 constexpr double flat = 1e-7;
-/// Of the diagonal of the box: what is nearer, but does not touch, OpenCASCADE may join or not.
-constexpr double least_gap = 1e-6;
 
 std::string quoted_name(const FractureGeometry& fracture) { return "fracture '" + fracture.name + "'"; }
 
@@ -35,7 +34,7 @@ void validate_ellipse(const Box& box, const FractureGeometry& fracture, double s
     Point reach = Point::Zero();
     reach[axis] = std::hypot(one[axis], other[axis]);
     const double over = std::max(box.low[axis] - center[axis], center[axis] - box.high[axis]) + reach[axis];
-    if (over < -std::max(snap, least_gap * box.size().norm())) continue;
+    if (over < -std::max(snap, rounding::far_above * box.size().norm())) continue;
     const bool is_low = center[axis] - box.low[axis] < box.high[axis] - center[axis];
     throw InputError(fracture.origin,
                      what + (over > 0                       ? " leaves the box"
@@ -104,7 +103,7 @@ void validate_polygon(const Box& box, const FractureGeometry& fracture, double s
       if (std::ranges::all_of(points, [&](const Point& x) { return std::abs(x[axis] - side) < tolerance; }))
         throw InputError(fracture.origin, what + " runs along the boundary", "at " + to_text(points[0]),
                          "move it into the " + medium_name());
-  const double reach = std::max(snap, least_gap * box.size().norm());
+  const double reach = std::max(snap, rounding::far_above * box.size().norm());
   for (const Point& point : points)
     if (const double gap = depth(box, point); gap > tolerance && gap < reach)
       throw InputError(fracture.origin, what + " nearly touches the boundary",
@@ -145,7 +144,7 @@ const Point* common_place(const FlatShape& one, const FlatShape& other, double t
       };
       const Point u = (edge.to - edge.from).normalized(), v = (across.to - across.from).normalized();
       at = a;
-      if ((a - b).norm() < tolerance && !is_end(a) && u.cross(v).norm() > least_gap) return &at;
+      if ((a - b).norm() < tolerance && !is_end(a) && u.cross(v).norm() > rounding::far_above) return &at;
     }
   return nullptr;
 }
@@ -201,7 +200,7 @@ void validate_fracture(const Box& box, const FractureGeometry& fracture, double 
 
 void validate_pairs(const Geometry& geometry, Problems& problems) {
   const double tolerance = point_tolerance(geometry.box);
-  const double reach = std::max(geometry.snap.value_or(0), least_gap * geometry.box.size().norm());
+  const double reach = std::max(geometry.snap.value_or(0), rounding::far_above * geometry.box.size().norm());
   std::vector<const FractureGeometry*> sound;
   std::vector<FlatShape> shapes;
   for (const FractureGeometry& fracture : geometry.fractures) {

@@ -7,6 +7,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/remeshing/overlap.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -56,9 +57,8 @@ class LinearInCells {
         if (const auto known = at_faces_.find(face); known != at_faces_.end() && touches(face, cell))
           fit(mesh_.face_center[face], Vector::Constant(1, known->second));
     }
-    constexpr double least_determinant = 1e-6;  // over that of neighbours all around; less: they lie in one line
     const double half_trace = normal.trace() / dimension;
-    if (!(normal.determinant() > least_determinant * half_trace * half_trace))
+    if (!(normal.determinant() > rounding::far_above * half_trace * half_trace))
       return Gradient::Zero(components_, dimension);
     Gradient gradient = right * normal.inverse();
     for (int k = 0; k < components_; ++k) {

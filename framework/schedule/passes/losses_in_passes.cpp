@@ -11,14 +11,15 @@ namespace sprekk {
 std::optional<double> LossesInPasses::size_to_repeat(const StepTime& step, double at) {
   SPREKK_EXPECT(std::isfinite(at), at);
   constexpr double most_of_the_way = 0.9;  // the end is known as well as loads are linear in the step
-  constexpr double half_of_it = 0.5;       // where they are not: the shorter step has found an earlier end
-  constexpr double nearer = 0.5;           // with less each step comes nearer by a factor, and none gets there
+  // Steps that come nearer by less than half of what they advance would come nearer by a factor each, and none gets
+  // there.
   const bool is_again = last_ && step.start == last_->start;
-  const bool stays_ahead = last_ && step.start > last_->start && at - last_->at < nearer * (step.start - last_->start);
+  const bool stays_ahead = last_ && step.start > last_->start && at - last_->at < 0.5 * (step.start - last_->start);
   last_ = {step.start, at};
   if (stays_ahead) return std::nullopt;
   const double left = std::max(at - step.start, std::numeric_limits<double>::min());  // a size below 0 asks for none
-  return (is_again ? half_of_it : most_of_the_way) * left;
+  // Where loads are not linear in the step, a shorter step has found an earlier end.
+  return (is_again ? 0.5 : most_of_the_way) * left;
 }
 
 }  // namespace sprekk

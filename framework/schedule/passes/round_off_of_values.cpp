@@ -1,16 +1,15 @@
 #include "framework/schedule/passes/round_off_of_values.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "framework/invariants.hpp"
 #include "framework/parallel/parallel.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 
 Vector round_off_of_values(const Assembly& assembly, const BlockSystem& system) {
   SPREKK_EXPECT(assembly.wants_derivatives());
-  constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();  // of summed terms
   Vector sizes = Vector::Zero(system.size()), own = sizes;
   for (const Assembly::Block& block : assembly.blocks()) {
     const std::vector<char>& owned = system.owned(block.row);
@@ -25,7 +24,7 @@ Vector round_off_of_values(const Assembly& assembly, const BlockSystem& system) 
       }
     }
   }
-  for (int i = 0; i < sizes.size(); ++i) sizes[i] = own[i] == 0 ? 0 : round_off * sizes[i] / std::abs(own[i]);
+  for (int i = 0; i < sizes.size(); ++i) sizes[i] = own[i] == 0 ? 0 : rounding::of_sum * sizes[i] / std::abs(own[i]);
   parallel::sum(sizes);
   SPREKK_ASSERT(is_finite(sizes), sizes.size());
   return sizes;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "framework/assembly/notes.hpp"
+#include "framework/no_value.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::fine_fracture {
@@ -76,28 +77,21 @@ void JumpFit::report(std::vector<Quantity>& quantities) const {
   if (!surroundings_) return;
   if (has_begun_) surroundings_->update();
   for (const Tip& tip : tips_) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const std::string prefix = name() + "." + tip.name + ".";
-    const FittedFactors fitted = has_begun_ ? factors_of(tip) : FittedFactors{{unknown, unknown, unknown}, unknown};
+    const FittedFactors fitted = has_begun_ ? factors_of(tip) : FittedFactors{{no_value, no_value, no_value}, no_value};
     quantities.push_back({prefix + "K_I", "Pa*m^0.5", fitted.sifs.k1});
     quantities.push_back({prefix + "K_II", "Pa*m^0.5", fitted.sifs.k2});
-    quantities.push_back({prefix + "K_eq", "Pa*m^0.5", has_begun_ ? equivalent_sif(fitted.sifs) : unknown});
+    quantities.push_back({prefix + "K_eq", "Pa*m^0.5", has_begun_ ? equivalent_sif(fitted.sifs) : no_value});
     quantities.push_back({prefix + "K_error_fit", "Pa*m^0.5", fitted.error});
   }
 }
 
 void JumpFit::note_input(Notes& notes) const {
-  if (!surroundings_)
-    notes.add(
-        name() + " without a coupler",
-        fmt::format("{} has no factors (no coupler gives it the jumps of the rock) add a coupler two_level between "
-                    "the rock and {}",
-                    name(), name()));
+  if (!surroundings_) note_without_jumps(name(), notes);
 }
 
 void JumpFit::note_step(Notes& notes, const StepTime&) const {
   if (!surroundings_) return;
-  constexpr double uncertain = 0.1;  // of K_eq
   for (const Tip& tip : tips_) {
     const FittedFactors fitted = factors_of(tip);
     const double k_eq = equivalent_sif(fitted.sifs);

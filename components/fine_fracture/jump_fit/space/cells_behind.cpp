@@ -19,7 +19,7 @@ bool is_corner(const RimEdge& one, const RimEdge& next) {
 }
 
 /// `count` edges of the front from `first` on. `start`: m, the arc length there.
-FrontPiece piece_of(const Mesh& mesh, const Front& front, int first, int count, double start) {
+FrontPiece piece_of(const Mesh& mesh, const FrontLine& front, int first, int count, double start) {
   FrontPiece piece{front.fracture, false, {}, {}, {start}, {}};
   const int all = static_cast<int>(front.edges.size());
   for (int i = 0; i < count; ++i) {
@@ -106,7 +106,7 @@ int FrontPiece::edge_at(int edge, int further) const {
 
 std::vector<FrontPiece> pieces_of_fronts(const Mesh& mesh) {
   std::vector<FrontPiece> pieces;
-  for (const Front& front : fronts(mesh)) {
+  for (const FrontLine& front : fronts(mesh)) {
     const int count = static_cast<int>(front.edges.size());
     std::vector<int> starts;
     for (int i = 0; i < count; ++i)

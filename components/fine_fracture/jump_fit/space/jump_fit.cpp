@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "framework/assembly/notes.hpp"
+#include "framework/no_value.hpp"
 #include "framework/scene/registry.hpp"
 
 namespace sprekk::fine_fracture {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* unit_of_factors = "Pa*m^0.5";
 
 /// The moduli in the relation between factors and jumps, of one side or of both, Pa.
@@ -50,7 +49,7 @@ void FrontJumpFit::accept_jumps(JumpsOfWalls& jumps) {
 std::string FrontJumpFit::why_no_growth() const { return "fractures in space do not grow yet"; }
 
 std::vector<FrontJumpFit::Factors> FrontJumpFit::factors() const {
-  std::vector<Factors> all(places_.size(), {unknown, unknown, unknown, unknown, unknown});
+  std::vector<Factors> all(places_.size(), {no_value, no_value, no_value, no_value, no_value});
   if (!jumps_ || !has_begun_) return all;
   jumps_->update();
   const auto value_of = [&](const FrontSum& sum, const Point& per_jump) {
@@ -68,7 +67,7 @@ std::vector<FrontJumpFit::Factors> FrontJumpFit::factors() const {
     const Moduli rock = of_both(rock_at(Wall::plus), rock_at(Wall::minus));
     const Point per_jump(rock.plane / 8, rock.plane / 8, rock.shear / 4), value = value_of(places_[i].fitted, per_jump);
     const double error = places_[i].with_one_less.parts.empty()
-                             ? unknown
+                             ? no_value
                              : (value - value_of(places_[i].with_one_less, per_jump)).norm();
     const double release = value.head<2>().squaredNorm() / rock.plane + value[2] * value[2] / (2 * rock.shear);
     all[i] = {value[1], value[0], value[2], error, release};
@@ -81,7 +80,7 @@ void FrontJumpFit::report(std::vector<Quantity>& quantities) const {
   const std::vector<Factors> all = factors();
   for (std::size_t i = 0; i < all.size();) {
     const int fracture = places_[i].fracture;
-    Factors most{unknown, unknown, unknown, unknown, unknown};
+    Factors most{no_value, no_value, no_value, no_value, no_value};
     for (; i < all.size() && places_[i].fracture == fracture; ++i) {
       most.k1 = std::isnan(most.k1) ? all[i].k1 : std::max(most.k1, all[i].k1);
       most.k2 = largest(most.k2, all[i].k2);
@@ -101,7 +100,7 @@ void FrontJumpFit::report(std::vector<Quantity>& quantities) const {
 void FrontJumpFit::output(std::vector<OutputField>& fields) const {
   const std::vector<Factors> all = factors();
   const auto add = [&](const std::string& what, const std::string& unit, auto value_of) {
-    Vector values = Vector::Constant(std::ssize(mesh_.ridges), unknown);
+    Vector values = Vector::Constant(std::ssize(mesh_.ridges), no_value);
     for (std::size_t i = 0; i < all.size(); ++i) values[places_[i].ridge] = value_of(i);
     fields.push_back({name() + "." + what, unit, Location::ridge, 1, std::move(values)});
   };
@@ -114,17 +113,11 @@ void FrontJumpFit::output(std::vector<OutputField>& fields) const {
 }
 
 void FrontJumpFit::note_input(Notes& notes) const {
-  if (!jumps_)
-    notes.add(
-        name() + " without a coupler",
-        fmt::format("{} has no factors (no coupler gives it the jumps of the rock) add a coupler two_level between "
-                    "the rock and {}",
-                    name(), name()));
+  if (!jumps_) note_without_jumps(name(), notes);
 }
 
 void FrontJumpFit::note_step(Notes& notes, const StepTime&) const {
   if (!jumps_) return;
-  constexpr double uncertain = 0.1;  // of the largest factors of the fracture
   const std::vector<Factors> all = factors();
   for (std::size_t i = 0; i < all.size();) {
     const int fracture = places_[i].fracture;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "framework/mesh/mesh.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
@@ -21,8 +22,7 @@ class WantedSizes {
       const Point a = mesh_->nodes[nodes[1]] - mesh_->nodes[nodes[0]],
                   b = mesh_->nodes[nodes[2]] - mesh_->nodes[nodes[0]];
       const double edge = std::sqrt(2 * std::abs(a.x() * b.y() - a.y() * b.x()) / std::sqrt(3.0));
-      constexpr double above_zero = 1e-300;  // no division by zero where an element has no error
-      const double excess = allowed / std::max(estimate.elements[e], above_zero);
+      const double excess = allowed / std::max(estimate.elements[e], rounding::above_zero);
       // Where the stress is smooth, the error of a quadratic element is proportional to the third power of its size.
       constexpr double smallest = 0.3, smallest_of_tip = 0.4;  // largest reduction in one round
       const double shrink = std::clamp(std::cbrt(excess), smallest, 1.0);

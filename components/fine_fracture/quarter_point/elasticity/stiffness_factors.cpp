@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "framework/invariants.hpp"
+#include "framework/matrix_of.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::fine_fracture {
@@ -92,8 +93,7 @@ struct CornerGraph {
           if (column != none && row >= column) entries.emplace_back(row, column, 1.0);
     }
     const auto count = static_cast<Eigen::Index>(corners.size());
-    lower.resize(count, count);
-    lower.setFromTriplets(entries.begin(), entries.end());
+    lower = matrix_of(count, count, entries);
   }
 
  private:

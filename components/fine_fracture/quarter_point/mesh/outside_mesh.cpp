@@ -6,6 +6,7 @@
 
 #include "components/fine_fracture/fine_level/outline.hpp"
 #include "framework/mesh/mesh.hpp"
+#include "framework/round_off.hpp"
 #include "framework/triangulation/canonical_drawing.hpp"
 #include "framework/triangulation/mesh_region.hpp"
 #include "framework/triangulation/smooth_triangles.hpp"
@@ -103,9 +104,8 @@ class DrawingBuilder {
   }
 
   bool is_in_rosette(int crack, const Point& x) const {
-    constexpr double rounding = 1e-6;  // of the radius: points of its circle are in, the next ones an element away
     for (const TipRoom& room : rooms_) {
-      if (room.crack == crack && (x - room.position).norm() <= room.radius * (1 + rounding)) return true;
+      if (room.crack == crack && (x - room.position).norm() <= room.radius * (1 + rounding::far_above)) return true;
     }
     return false;
   }

@@ -4,11 +4,10 @@
 #include <limits>
 
 #include "components/fine_fracture/fine_level/outline.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fine_fracture {
 namespace {
-
-constexpr double largest_bend = 1e-9;  ///< rad, largest bend of a part that counts as straight: round-off of directions
 
 /// The points of a path in their order from a tip.
 struct Walk {
@@ -35,7 +34,7 @@ TipRoom room_of(const FineGeometry& geometry, int c, bool is_last, double larges
   std::size_t segments = 0;  // segments of the straight end
   while (segments < walk.walls.size()) {
     const Point step = (walk.points[segments + 1] - walk.points[segments]).normalized();
-    if (std::abs(cross(along, step)) > largest_bend || along.dot(step) < 0) break;
+    if (std::abs(cross(along, step)) > rounding::same || along.dot(step) < 0) break;
     if (segments > 0 && points == StraightPoints::end_it && walk.walls[segments] == walk.walls[segments - 1]) break;
     ++segments;
     room.straight = (walk.points[segments] - tip).norm();

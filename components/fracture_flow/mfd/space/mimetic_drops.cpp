@@ -4,6 +4,7 @@
 
 #include "framework/invariants.hpp"
 #include "framework/mesh/ridge_distance.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::fracture_flow {
 namespace {
@@ -33,8 +34,7 @@ Eigen::MatrixXd beside_two_point_fluxes(const Mesh& mesh, int cell) {
   Eigen::MatrixXd g = midpoints * midpoints.transpose() / of.measure + rest.transpose() * h.asDiagonal() * rest;
   g.diagonal() -= h;
   // Of the largest entry: rectangles, where nothing else is left, keep two-point fluxes.
-  constexpr double round_off = 1e-14;
-  return (g.cwiseAbs().array() < round_off * h.maxCoeff()).select(0, g);
+  return (g.cwiseAbs().array() < rounding::of_terms * h.maxCoeff()).select(0, g);
 }
 
 }  // namespace

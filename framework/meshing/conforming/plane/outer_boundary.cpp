@@ -1,17 +1,15 @@
 #include "framework/meshing/conforming/plane/outer_boundary.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/plane/cell_shape.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
-/// Nodes at one place, of the extent of the mesh: round-off of coordinates in a file.
-constexpr double same_place = 1e-9;
 /// A gap that is narrower is an error of coordinates and not a part of the domain, of the shorter edge at it: round-off
 /// of coordinates in a file.
 constexpr double least_gap = 1e-3;
@@ -46,7 +44,7 @@ OuterBoundary::OuterBoundary(const std::vector<Point>& nodes, const std::vector<
     high = high.cwiseMax(edge.from);
   }
   extent_ = (high - low).norm();
-  round_off_ = same_place * extent_;
+  round_off_ = rounding::same * extent_;
 }
 
 Point OuterBoundary::middle(int edge) const {

@@ -10,11 +10,10 @@
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/outer_ridges.hpp"
 #include "framework/mesh/space/face_triangles.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
-
-constexpr double on_plane = 1e-9;  // of the length of a line: ends that are nearer to a plane lie on it
 
 /// Six times the volume of the tetrahedron with these edges at a corner.
 double volume_of(const Point& a, const Point& b, const Point& c) { return a.dot(b.cross(c)); }
@@ -69,7 +68,7 @@ bool pierces(const Point& from, const Point& to, const FaceNodes& face, const st
   for_each_triangle(nodes, face, [&](const Point& a, const Point& b, const Point& c) {
     const Point normal = (b - a).cross(c - a);
     const double start = normal.dot(from - a), end = normal.dot(to - a);
-    const double near = on_plane * normal.norm() * along.norm();
+    const double near = rounding::same * normal.norm() * along.norm();
     if (std::min(start, end) > -near || std::max(start, end) < near) return;
     // The line passes on the same side of all edges.
     const double first = volume_of(along, a - from, b - from), second = volume_of(along, b - from, c - from),

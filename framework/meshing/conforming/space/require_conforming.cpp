@@ -8,12 +8,11 @@
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/geometry.hpp"
 #include "framework/meshing/conforming/space/outer_shells.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
-// Of the longest edge of a face: what is nearer lies on it; round-off of coordinates.
-constexpr double round_off = 1e-9;
 /// Faces of a hole from which some ten tetrahedra are missing. A hole that is meant has more, or has a group.
 constexpr std::size_t few_faces = 24;
 
@@ -22,7 +21,7 @@ bool lies_on(const Point& x, const FaceNodes& face, const std::vector<Point>& no
   const FaceGeometry geometry = face_geometry(nodes, face);
   double longest = 0;
   for (int k = 0; k < face.size(); ++k) longest = std::max(longest, (nodes[face.after(k)] - nodes[face[k]]).norm());
-  const double near = round_off * longest;
+  const double near = rounding::same * longest;
   if (std::abs((x - geometry.center).dot(geometry.normal)) > near) return false;
   for (int k = 0; k < face.size(); ++k) {
     const Point &from = nodes[face[k]], &to = nodes[face.after(k)];
@@ -117,7 +116,7 @@ std::vector<std::string> require_conforming(const RawMesh& mesh, const FaceTable
       item.low = item.low.cwiseMin(mesh.nodes[node]);
       item.high = item.high.cwiseMax(mesh.nodes[node]);
     }
-    const Point margin = Point::Constant(round_off * (item.high - item.low).norm());
+    const Point margin = Point::Constant(rounding::same * (item.high - item.low).norm());
     item.low -= margin, item.high += margin;
     widest = std::max(widest, item.high.x() - item.low.x());
     outer.push_back(item);

@@ -12,15 +12,13 @@
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/mesh.hpp"
 #include "framework/mesh/search/plane/segment_tree.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
 
 /// Rounds of joining after which lines are called entangled. Networks of hundreds of lines take three to six.
 constexpr int most_rounds = 100;
-/// By how much the reach is larger, of itself: a distance that is written as the reach is within it. Round-off of
-/// coordinates.
-constexpr double reach_rounding = 1e-6;
 
 struct Place {
   Point at;
@@ -33,7 +31,7 @@ struct Place {
 class Joiner {
  public:
   Joiner(const Box& box, const std::vector<LineToJoin>& lines, double reach, double same)
-      : reach_((1 + reach_rounding) * reach), same_(same) {
+      : reach_((1 + rounding::far_above) * reach), same_(same) {
     for (const LineToJoin& line : lines) add(line);
     add_box(box);
   }

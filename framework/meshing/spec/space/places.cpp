@@ -12,6 +12,7 @@
 #include "framework/config/usual_range.hpp"
 #include "framework/mesh/medium.hpp"
 #include "framework/meshing/space/strike_and_dip.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 
@@ -140,14 +141,13 @@ std::optional<HalfSpace> plane_of(const Data& surface) {
   const double z = height_at(surface, 0, 0);
   const double slope_x = height_at(surface, 1, 0) - z, slope_y = height_at(surface, 0, 1) - z;
   // Places of very different sizes.
-  constexpr double round_off = 1e-9;
   constexpr std::array places_x = {-1.17e5, -713.0, 0.37, 53.0, 2.31e4};
   constexpr std::array places_y = {-3.3e4, -91.0, 0.83, 417.0, 1.9e5};
   for (const double x : places_x)
     for (const double y : places_y) {
       const double flat = z + slope_x * x + slope_y * y;
       if (std::abs(height_at(surface, x, y) - flat) >
-          round_off * (std::abs(z) + std::abs(x) + std::abs(y)) * std::max(1.0, std::hypot(slope_x, slope_y)))
+          rounding::same * (std::abs(z) + std::abs(x) + std::abs(y)) * std::max(1.0, std::hypot(slope_x, slope_y)))
         return std::nullopt;
     }
   return HalfSpace{Point(0, 0, z), Point(-slope_x, -slope_y, 1)};
