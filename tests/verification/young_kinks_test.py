@@ -101,8 +101,8 @@ class YoungKinks(SceneRuns):
                 self.assertGreater(row[end + "length"], before[end + "length"])  # no stairs
                 self.assertAlmostEqual(row[end + "K_eq"] / TOUGHNESS, 1, delta=1.001e-3)
                 self.assertLess(abs(row[end + "K_II"]), 1.001e-2 * row[end + "K_I"])
-                # From 0.1 to 2 mm; the fine level alone knows these kinks.
-                self.assertAlmostEqual(row["fracture_pressure"] / pressure_of_wing(row[end + "length"]), 1, delta=1e-3)
+                # From 0.1 to 2.7 mm, known to the fine level alone: K is too small by what the rock around does not know.
+                self.assertAlmostEqual(row["fracture_pressure"] / pressure_of_wing(row[end + "length"]), 1, delta=3e-3)
 
     def test_wings_are_those_of_boundary_elements(self):
         self.expect_wings(self.wings)

@@ -116,8 +116,9 @@ void TipsFront::add(Tips::Tip& tip) {
     const Point way = tips_.position(tip, tip.now.path) - end;
     start.first_length = way.norm();
     start.first_angle = angle_of(way);
-    start.least = (tips_.position(tip, tip.accepted.path) - end).norm();
   }
+  // Also of a tip that the mesh begins to follow in this step.
+  start.least = (tips_.position(tip, tip.accepted.path) - end).norm();
   // A tip that is at another fracture or at the boundary grows no more by increments.
   const bool wants = start.goes_on || start.first_length > 0 || state.load > 1;
   const double reach = start.first_length + longest_advance * increment;
