@@ -43,11 +43,15 @@ Spec GrowOptions::spec() {
   spec.quantity("overshoot", overshoot,
                 {.range = positive(),
                  .doc = "A step is repeated with a smaller one when the load of a tip that has not grown yet passes "
-                        "that of growth by more than this part."});
+                        "that of growth by more than this part. Without it that is 0.002 with within_step, and 0.02 "
+                        "otherwise."});
   return spec;
 }
 
 namespace {
+
+constexpr double usual_overshoot = 0.02;  ///< of the load of growth: some steps up to onset, also in diffusion
+constexpr double exact_overshoot = 2e-3;  ///< twice the difference of loads between two meshes
 
 /// The suggestion for a `grow` step whose component cannot grow.
 std::string growing_in(const ScheduleContext& context) {
@@ -109,6 +113,7 @@ std::string decided_update(const GrowOptions& options, const Growing& growing, c
 
 GrowOptions decided(GrowOptions options, const Growing& growing, const ScheduleContext& context) {
   options.update = decided_update(options, growing, context);
+  if (!options.overshoot) options.overshoot = options.update == within_step ? exact_overshoot : usual_overshoot;
   return options;
 }
 
@@ -125,13 +130,14 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
 
 bool GrowStep::may_shrink(const StepTime& step) const { return step.dt > smallest_step_ * (1 + rounding::same); }
 
-StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now) {
+StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now,
+                             double overshoot) {
   SPREKK_EXPECT(std::isfinite(before) && std::isfinite(now), before, now);
   SPREKK_ASSERT(smallest_step_ > 0, smallest_step_);
   constexpr double slowest = 0.4, at_constant_rate = 1;  // powers of time with which loads rise; 1/2: diffusion
   constexpr double least = 0.01, least_by_logarithm = 0.1, most = 0.9;  // of the step that was refused
   // The middle of what is accepted; half of the step where the part to take does not follow from its loads.
-  const double wanted = (1 + 0.5 * options_.overshoot - before) / (now - before);  // of the rise of this step
+  const double wanted = (1 + 0.5 * overshoot - before) / (now - before);  // of the rise of this step
   double part = now > before ? wanted : 0.5;
   if (refusal_ && refusal_->start == step.start && refusal_->before == before && refusal_->dt > step.dt &&
       refusal_->load > now && now > before) {
@@ -182,16 +188,16 @@ StepStatus GrowStep::look_and_grow(const StepTime& step) {
   }
   load_ = examine(step);
   SPREKK_ASSERT(!std::isnan(load_.now) && !std::isnan(load_.onset), load_.now, load_.onset);
-  const double most = 1 + options_.overshoot;
-  if (load_.onset > most && may_shrink(step))
+  const double later = std::max(overshoot(), usual_overshoot);
+  if (load_.onset > 1 + overshoot() && may_shrink(step))
     return refused(fmt::format("a tip is at {:.3g} times the load of growth", load_.onset), step, load_.onset_accepted,
-                   load_.onset);
+                   load_.onset, overshoot());
   if (load_.now <= 1) return {true, "", 0};
   now_doing("growing");
   Growing::Growth growth = growing_->grow(step);
   // Growth that does not arrest begins as soon as the load is reached, so smaller steps have nothing to resolve.
-  if (!growth.arrested && load_.now > most && may_shrink(step))
-    return refused("tips grow further than the mesh can follow in one step", step, load_.accepted, load_.now);
+  if (!growth.arrested && load_.now > 1 + later && may_shrink(step))
+    return refused("tips grow further than the mesh can follow in one step", step, load_.accepted, load_.now, later);
   extensions_ = std::move(growth.extensions);
   growth_load_ = growth.load;
   return {true, "", 0};

@@ -17,11 +17,11 @@ struct GrowOptions {
   std::string component;
   std::vector<std::string> settle;
   std::string update = automatic;
-  bool is_followed = false;  ///< whether another step of the schedule solves or grows behind it
-  int passes = 20;           ///< of repeat_step
-  double cut = 1e-2;         ///< size of the steps after a growth event, over the standard step
-  double settled = 1e-2;     ///< relative change over a step at and below which the standard step returns
-  double overshoot = 0.02;   ///< by how much the load may pass 1 before the step is repeated with a smaller one
+  bool is_followed = false;         ///< whether another step of the schedule solves or grows behind it
+  int passes = 20;                  ///< of repeat_step
+  double cut = 1e-2;                ///< size of the steps after a growth event, over the standard step
+  double settled = 1e-2;            ///< relative change over a step at and below which the standard step returns
+  std::optional<double> overshoot;  ///< by how much the load may pass 1 before a shorter step is taken
   Origin origin;
   NewtonOptions newton;
   LinearOptions linear;
@@ -45,6 +45,7 @@ class GrowStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override { settle_.add_counts(counts); }
 
   const GrowOptions& options() const { return options_; }
+  double overshoot() const { return *options_.overshoot; }
   bool grows_within_step() const { return options_.update == within_step; }
   /// In which steps tips grow with the state held, as with after_step, although growth belongs to the steps.
   enum class Holding {
@@ -72,10 +73,10 @@ class GrowStep : public ScheduleStep {
   /// by more than the overshoot, and the state at the tips is as before, or drifts evenly. Tips that are closed, or
   /// would grow by less than the shortest increment, do not count: they may stay above it while others grow.
   bool has_come_to_rest() const {
-    return extensions_.empty() && growth_load_ <= 1 + options_.overshoot && load_.uneven <= options_.settled;
+    return extensions_.empty() && growth_load_ <= 1 + overshoot() && load_.uneven <= options_.settled;
   }
   /// The largest load of all tips over the load 1 + overshoot/2 at which a refused step would be made to end.
-  double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * options_.overshoot); }
+  double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * overshoot()); }
   /// Solves for the components of `settle` at fixed values of everything else, with data as in the given step.
   StepStatus settle(const StepTime& step) { return settle_.run(step); }
 
@@ -84,7 +85,7 @@ class GrowStep : public ScheduleStep {
   StepStatus look_and_grow(const StepTime& step);
   /// Refuses a step, and asks for one at whose end the load is 1 + overshoot/2. `before`, `now`: the loads at its start
   /// and at its end.
-  StepStatus refused(const std::string& reason, const StepTime& step, double before, double now);
+  StepStatus refused(const std::string& reason, const StepTime& step, double before, double now, double overshoot);
   /// The load of the tips, and whether they grow with the state held.
   Growing::Load examine(const StepTime& step);
   Growing* growing_;

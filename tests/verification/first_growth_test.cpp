@@ -42,24 +42,15 @@ TEST(FirstGrowth, EndsAtTheToughnessWithoutShear) {
       if (angle != "45 deg" && (pressure == 8.16 || pressure == 9.0)) continue;
       SceneRun run = one_step_to(pressure, angle);
       ASSERT_TRUE(run.step());
-      // At 8.12 MPa 0.05 mm would do, and increments of less than 0.1 mm are not taken.
-      const std::vector<Notes::Note> notes = notes_of(run);
-      EXPECT_EQ(notes.size(), pressure < 8.15 ? 2 : 0);
-      for (const Notes::Note& note : notes) {
-        EXPECT_NE(note.text.find("waits at K_eq/K_IC = 1.01"), std::string::npos) << note.text;
-        EXPECT_NE(note.text.find("shortest increment"), std::string::npos) << note.text;
-      }
+      EXPECT_TRUE(notes_of(run).empty());
       for (const std::string tip : {"tips.main_first", "tips.main_last"}) {
         SCOPED_TRACE(tip + ", " + angle + ", " + std::to_string(pressure) + " MPa");
         const double length = run.quantity(tip + ".length");
         EXPECT_NEAR(run.quantity(tip + ".K_eq") / toughness, 1, 0.02);
-        EXPECT_EQ(length > 0, pressure > 8.15);
-        if (length > 0) {
-          EXPECT_LT(std::abs(run.quantity(tip + ".K_II")), 0.03 * run.quantity(tip + ".K_I"));
-        }
+        EXPECT_LT(std::abs(run.quantity(tip + ".K_II")), 0.03 * run.quantity(tip + ".K_I"));
         // By the measured curve: 1 mm at 8.81 MPa, 2 mm at 9.1 MPa, 5 mm at 9.55 MPa.
         EXPECT_LT(length, pressure < 8.75 ? 0.8e-3 : pressure < 9.05 ? 2.1e-3 : 4.3e-3);
-        EXPECT_GT(length, pressure < 8.95 ? -1 : pressure < 9.05 ? 1.2e-3 : 3.3e-3);
+        EXPECT_GT(length, pressure < 8.95 ? 0.03e-3 : pressure < 9.05 ? 1.2e-3 : 3.3e-3);
       }
     }
 }

@@ -20,15 +20,19 @@ struct GrowthOptions {
   double front_tolerance = 1e-7;       ///< |ln(K_eq/K_IC)| of a tip that grows within a step
   bool has_front_tolerance = false;    ///< whether the scene gives it
   double largest_turn = 1.4;           ///< rad
-  double smallest = 0.01;              ///< shortest increment over `increment`
-  std::optional<double> longest;       ///< m, added by a tip in one call
-  int at_most = 50;                    ///< increments of a tip in one call
-  int tries = 8;                       ///< evaluations of an increment before a looser result is accepted
+  /// Shortest increment over `increment`: K_eq of a kink falls with the root of its length, by 1 % in its first
+  /// thousandth.
+  double smallest = 1e-4;
+  std::optional<double> longest;  ///< m, added by a tip in one call
+  int at_most = 50;               ///< increments of a tip in one call
+  int tries = 8;                  ///< evaluations of an increment before a looser result is accepted
 
   bool is_implicit() const { return direction == "implicit"; }
   bool releases_most() const { return direction == "largest_release"; }
   bool seeks_arrest() const { return length == "arrest"; }
   double smallest_length() const { return smallest * increment; }  ///< m
+  /// Growth within steps: kinks that the mesh does not follow yet are followed from length zero.
+  void follow_kinks();
   Spec spec();
 };
 

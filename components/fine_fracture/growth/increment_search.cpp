@@ -62,8 +62,8 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
     angle_ = clamp_turn(options_.relaxation *
                         (options_.releases_most() ? largest_release_angle(start_) : maximum_tangential_angle(start_)));
     phase_ = Phase::direction_fixed;
-  } else if (turns_away(start_, length_) &&
-             !(options_.seeks_arrest() && may_wait() && longest_that_turns_back(start_) >= shortest_length())) {
+  } else if (turns_away(start_, length_) && !(options_.seeks_arrest() && may_wait() &&
+                                              longest_that_turns_back(start_) >= options_.smallest_length())) {
     fix_direction(tension);
   } else {
     // Where little growth is wanted, K_eq may fall to the toughness on the way to an increment that is turned away.
@@ -74,18 +74,14 @@ IncrementSearch::IncrementSearch(const GrowthOptions& options, const Sifs& start
 
 double IncrementSearch::first_length() const {
   if (!options_.seeks_arrest()) return full_length_;
+  if (!(warm_start_.release > 0))
+    return longest_overloaded_kink(start_, toughness_, options_.smallest_length(), full_length_);
   // A shorter length is tried first only where the whole length is much too long: near the toughness a small change of
   // K_eq corresponds to a large change of the length, and tips that grow together share whole increments.
   constexpr double tolerances = 5;
   const double excess_of_whole = shorter_.excess + warm_start_.release * full_length_;
   if (excess_of_whole < tolerances * options_.arrest_tolerance) return full_length_;
-  return std::clamp(-shorter_.excess / warm_start_.release, shortest_length(), full_length_);
-}
-
-/// A tip waits rather than grow by very little, but not where that would leave it well above the toughness.
-double IncrementSearch::shortest_length() const {
-  constexpr double part = 0.1;  // of the usual shortest increment, far above the toughness
-  return (options_.seeks_arrest() && !may_wait() ? part : 1) * options_.smallest_length();
+  return std::clamp(-shorter_.excess / warm_start_.release, options_.smallest_length(), full_length_);
 }
 
 /// Whether the tip is hardly above its toughness.
@@ -102,7 +98,7 @@ void IncrementSearch::limit_length(double free_length) {
   SPREKK_EXPECT(!std::isnan(free_length), free_length);
   if (free_length >= length_) return;
   is_limited_ = true;
-  if (free_length < shortest_length()) {
+  if (free_length < options_.smallest_length()) {
     full_length_ = 0;
     return stay();
   }
@@ -233,7 +229,8 @@ void IncrementSearch::learn(const Sifs& end) {
 
 void IncrementSearch::settle(double k_eq) {
   SPREKK_ASSERT(length_ > 0, length_);
-  warm_start_.release = (excess(k_eq) - excess(equivalent_sif(start_))) / length_;
+  // K_eq of a kink falls from that of an infinitesimal one.
+  warm_start_.release = (excess(k_eq) - excess(equivalent_sif(after_kink(start_, angle_)))) / length_;
   directions_.clear();
 }
 
@@ -303,7 +300,7 @@ double IncrementSearch::longer_length() const {
 
 void IncrementSearch::change_length(double excess_here) {
   const Length here = {length_, excess_here, angle_};
-  if (here.excess > 0 && length_ <= shortest_length() * (1 + rounding)) {
+  if (here.excess > 0 && length_ <= options_.smallest_length() * (1 + rounding)) {
     warm_start_.release = (here.excess - excess(equivalent_sif(start_))) / length_;
     return stay();
   }
@@ -322,7 +319,7 @@ void IncrementSearch::change_length(double excess_here) {
       longer_.reset();
     third.reset();
   }
-  go_to(longer_ ? std::max(next_length(third), shortest_length()) : longer_length());
+  go_to(longer_ ? std::max(next_length(third), options_.smallest_length()) : longer_length());
 }
 
 /// Whether the bracket is narrower than K_eq allows, since K_eq would change with more than the fifth power of the
@@ -335,12 +332,12 @@ bool IncrementSearch::has_closed(double excess_here) const {
 
 void IncrementSearch::shorten(double by) {
   SPREKK_EXPECT(by > 0 && by < 1, by);
-  if (length_ <= shortest_length() * (1 + rounding))
+  if (length_ <= options_.smallest_length() * (1 + rounding))
     return fix_direction("no direction makes K_II vanish, not even with the shortest increment");
   ceiling_ = length_;
   longer_.reset();
   const double shorter = std::max(by * length_, 0.5 * (shorter_.length + length_) * (shorter_.length > 0));
-  go_to(std::max(shorter, shortest_length()));
+  go_to(std::max(shorter, options_.smallest_length()));
 }
 
 /// Changes the length, and estimates the direction for it from the directions that were tried with the present length.
@@ -367,7 +364,7 @@ void IncrementSearch::accept_as_it_is() {
 
 void IncrementSearch::fall_back() {
   add_note("the length of arrest was not found: the tip waits where it can");
-  if (shorter_.length < shortest_length()) return stay();
+  if (shorter_.length < options_.smallest_length()) return stay();
   phase_ = Phase::as_it_is;
   length_ = shorter_.length;
   angle_ = shorter_.angle;

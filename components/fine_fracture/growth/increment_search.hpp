@@ -74,7 +74,6 @@ class IncrementSearch {
   bool is_reversed() const;
   double root_of_phi();
   double first_length() const;
-  double shortest_length() const;
   bool may_wait() const;
   double next_length(const std::optional<Length>& third) const;
   double longer_length() const;

@@ -222,10 +222,14 @@ void FrontJump::conclude() {
     const double advance = now_.courses[i].advance - from_.courses[i].advance;
     if (!(advance > 0)) continue;
     const auto excess = [](double load) { return load * load - 1; };
+    // The first part begins on another mesh.
+    if (record.advance > 0 && now_.load[i] > from_.load[i] && !record.is_unstable) {
+      record.is_unstable = true;
+      if (record.falls) record.begins = record.advance, record.surplus = 0;
+    }
+    record.falls = now_.load[i] < from_.load[i];
     record.surplus += 0.5 * (excess(from_.load[i]) + excess(now_.load[i])) * advance;
     record.largest_load = std::max(record.largest_load, now_.load[i]);
-    // The first part begins on another mesh.
-    if (record.advance > 0 && now_.load[i] > from_.load[i]) record.is_unstable = true;
     record.advance += advance;
   }
 }

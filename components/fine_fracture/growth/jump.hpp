@@ -49,11 +49,13 @@ class FrontJump {
   /// What is known of the jump of a tip.
   struct Record {
     double advance = 0;       ///< m
+    double begins = 0;        ///< m, the part of the advance on which growth is stable: its load falls before it rises
     double largest_load = 0;  ///< K_eq over K_IC
-    /// m, the integral of G/G_c - 1 over the advance: times G_c it is the energy that was left over, per length of the
-    /// front.
+    /// m, the integral of G/G_c - 1 over the rest of the advance: times G_c it is the energy that was left over, per
+    /// length of the front.
     double surplus = 0;
     bool is_unstable = false;  ///< whether the load rose with the length
+    bool falls = false;        ///< the load, in the last part
   };
   const Record& record(int tip) const { return records_[tip]; }
 

@@ -75,7 +75,8 @@ FrontSearch::Verdict TipsFront::end_jump() {
     const double energy = record.surplus * toughness * toughness / Elasticity{lame.lambda, lame.shear}.plane_modulus();
     // What the fine level has grown alone in this step, before the mesh followed, is no part of it.
     const double alone = at_start_[i].first_length > 0 ? at_start_[i].first_length - at_start_[i].least : 0;
-    const double from = tips_.tips_[i].length_at_start + alone, to = from + record.advance;
+    const double at_start = tips_.tips_[i].length_at_start + alone, from = at_start + record.begins,
+                 to = at_start + record.advance;
     const char* const why_it_begins = record.is_unstable ? "its load rises with its length: growth is unstable"
                                                          : "its load does not fall to the toughness nearby";
     const Event event{"jump",

@@ -15,6 +15,7 @@ namespace {
 
 /// Of an increment, in one step: fixed segments are longer than half an increment.
 constexpr double longest_advance = 1.5;
+constexpr double least_room = 0.01;  ///< of an increment: where less is free ahead, there is an obstacle
 /// Of a change between the last two steps: it has noise, too; by the paper's section 5.2.
 constexpr double carried_on = 0.5;
 constexpr double largest_trend = 2;  ///< of the speed in this step over that in the last one
@@ -115,14 +116,14 @@ void TipsFront::add(Tips::Tip& tip) {
     const Point way = tips_.position(tip, tip.now.path) - end;
     start.first_length = way.norm();
     start.first_angle = angle_of(way);
-    start.least = (tips_.position(tip, tip.accepted.path) - end).norm();
   }
+  // Also of a tip that the mesh begins to follow in this step.
+  start.least = (tips_.position(tip, tip.accepted.path) - end).norm();
   // A tip that is at another fracture or at the boundary grows no more by increments.
   const bool wants = start.goes_on || start.first_length > 0 || state.load > 1;
   const double reach = start.first_length + longest_advance * increment;
   const double free = wants ? tips_.free_distance(tip, {}, end + reach * ahead) : reach;
-  is_blocked_.push_back(wants && state.is_evaluated &&
-                        free < std::max(start.first_length, tips_.options_.growth.smallest_length()));
+  is_blocked_.push_back(wants && state.is_evaluated && free < std::max(start.first_length, least_room * increment));
   if (is_blocked_.back()) {
     state.is_evaluated = false;
     start.first_length = 0;

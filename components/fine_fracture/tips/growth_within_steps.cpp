@@ -35,6 +35,7 @@ void Tips::grow_within_steps() {
                        "lengths and directions follow from K_eq = K_IC and K_II = 0 at the end of each step",
                        "leave it out, or choose 'update: after_step'");
   grows_within_steps_ = true;
+  options_.growth.follow_kinks();
 }
 
 void Tips::note_input(Notes& notes) const {

@@ -292,26 +292,19 @@ TEST(GrowTips, stop_where_the_way_is_not_free) {
   EXPECT_EQ(at_once.reason, "it has no free length ahead");
 }
 
+// The exact length is a half or three halves of the shortest increment.
 TEST(GrowTips, growth_shorter_than_the_shortest_increment_waits) {
-  GrowthOptions options = options_with(0.02);
-  const TipOutcome outcome = grow_one(options, [](double added) { return 0.701e6 - 1e12 * added; });
-  EXPECT_TRUE(outcome.path.added.empty());
-  EXPECT_TRUE(outcome.arrested);
-  EXPECT_EQ(outcome.end.k1, 0.701e6);
-  EXPECT_EQ(outcome.reason, "it would grow by less than the shortest increment");
-}
-
-TEST(GrowTips, waits_for_half_of_the_shortest_increment_up_to_twice_the_tolerance) {
-  // The exact length is 0.1 mm, and the shortest increment 0.2 mm, or a tenth of it above 1.02 of the toughness.
-  // Between 1.02 and exp(0.02) a note says that the tip is off its toughness.
-  for (const double ratio : {1.0199, 1.0201, 1.0203}) {
-    SCOPED_TRACE(ratio);
-    const auto k_eq = [&](double added) { return 0.7e6 * (ratio - (ratio - 1) * added / 1e-4); };
-    const TipOutcome outcome = grow_one(options_with(0.02), k_eq);
-    EXPECT_EQ(outcome.increments, ratio > 1.02 ? 1 : 0);
-    EXPECT_NEAR(outcome.length, ratio > 1.02 ? 1e-4 : 0, 0.5e-4);  // 1 % of K_eq is half of the length
-    EXPECT_NEAR(outcome.end.k1 / 0.7e6, 1, 0.02);
+  for (const double part : {0.5, 1.5}) {
+    GrowthOptions options = options_with(0.02);
+    options.arrest_tolerance = 1e-4;
+    const double exact = part * options.smallest_length();
+    const auto k_eq = [&](double added) { return 0.7e6 * (1.0199 - 0.0199 * added / exact); };
+    const TipOutcome outcome = grow_one(options, k_eq);
     EXPECT_TRUE(outcome.arrested);
+    EXPECT_NEAR(outcome.length, part < 1 ? 0 : exact, 0.01 * exact);
+    if (part < 1) {
+      EXPECT_EQ(outcome.reason, "it would grow by less than the shortest increment");
+    }
   }
 }
 

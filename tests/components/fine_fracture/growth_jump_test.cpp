@@ -114,6 +114,25 @@ TEST(FrontJump, GoesOnToTheNextEquilibrium) {
   }
 }
 
+/// The load falls to its least value, 20 mm away, before it rises: up to there a continuous advance would lead, and the
+/// jump begins there. Behind it the energy of the closed form is left over.
+TEST(FrontJump, BeginsWhereTheLoadIsLeast) {
+  const double least = 0.02, equal = 1e-4;
+  const auto log_load = [=](double y) { return equal + 40 * y * y - 400 * y * y * y; };
+  Crack crack{[=](double a) { return std::exp(log_load(a - start - least)); }};
+  crack.way = 1;
+  const FrontJump jump = crack.jump();
+  ASSERT_EQ(jump.verdict(), Front::Verdict::found);
+  const FrontJump::Record& record = jump.record(0);
+  EXPECT_TRUE(record.is_unstable);
+  EXPECT_NEAR(record.begins, least, 0.25 * increment);
+  EXPECT_NEAR(record.advance, least + 0.1, 1e-2 * increment);
+  double surplus = 0;
+  const double part = 1e-5;
+  for (double y = record.begins - least + part / 2; y < 0.1; y += part) surplus += part * std::expm1(2 * log_load(y));
+  EXPECT_NEAR(record.surplus, surplus, 0.01 * surplus);
+}
+
 /// A bent path keeps its curvature where its segments are divided: the points lie on one circle.
 TEST(FrontJump, DividesArcsOnThemselves) {
   const double curvature = 2, along = 0.008;  // 1/m, m
