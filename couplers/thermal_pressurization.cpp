@@ -227,8 +227,8 @@ class ThermalPressurization : public Coupler, public FollowsMesh, public KeepsTo
 
   /// The volume by which each cell has expanded since it was counted.
   Vector expanded(const Place& place) const {
-    return place.expansion.cwiseProduct(widths(place)).cwiseProduct(place.temperature.now() -
-                                                                    place.counted->accepted());
+    return place.expansion.cwiseProduct(widths(place))
+        .cwiseProduct(place.temperature.now() - place.counted->accepted());
   }
 
   /// The part of each fracture cell that has fluid.

@@ -140,7 +140,7 @@ class Parser {
     const auto continues_character = [&] { return end < text_.size() && (text_[end] & 0xc0) == 0x80; };  // in UTF-8
     if (!is_name() && end < text_.size()) ++end;
     while (continues_character()) ++end;
-    if (end == at_ || end > at_ + 1) // a name, or a unit such as '°C'
+    if (end == at_ || end > at_ + 1)  // a name, or a unit such as '°C'
       while (is_name()) ++end;
     return text_.substr(at_, end - at_);
   }

@@ -97,8 +97,7 @@ std::vector<std::pair<int, double>> along_fracture(const Mesh& mesh, int cell, c
       return std::ranges::find(others, nodes[n]) != others.end();
     };
     const std::vector<int> around = spread(mesh, {cell}, mesh.fracture_cell_count(), has_node);
-    for (const auto& [other, weight] : fitted_around(mesh, around, home, x).weights)
-      sums[other] += shares[n] * weight;
+    for (const auto& [other, weight] : fitted_around(mesh, around, home, x).weights) sums[other] += shares[n] * weight;
   }
   return {sums.begin(), sums.end()};
 }

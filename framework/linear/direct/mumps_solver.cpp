@@ -52,7 +52,7 @@ struct MumpsSolver::Instance {
   std::vector<int> border;         ///< the numbers of the unknowns that are not eliminated
   std::vector<double> schur;       ///< their Schur complement, by rows
   std::vector<int> pivots;         ///< the unknowns, from 0 on, of which this process gets the solution
-  bool has_pivots = false;          ///< since the factorization
+  bool has_pivots = false;         ///< since the factorization
   std::unique_ptr<parallel::RowExchange> solution_to_rows;  ///< from those to the rows of this process
   std::unique_ptr<parallel::WholeVectors> solution_to_all;  ///< from those to all unknowns
   bool is_ordered = false;                                  ///< for these entries
@@ -351,8 +351,7 @@ LinearReport MumpsSolver::not_singular() {
     return LinearReport::failure("the matrix is singular (a zero pivot in the row of " +
                                  describe_unknown(system_.blocks, row - 1) + ")");
   }
-  const std::string reason =
-      find_singularity(system_, scaled_.matrix, [this](Vector& v) { make_whole_inverse(v); });
+  const std::string reason = find_singularity(system_, scaled_.matrix, [this](Vector& v) { make_whole_inverse(v); });
   return reason.empty() ? LinearReport::success() : LinearReport::failure(reason);
 }
 

@@ -85,8 +85,7 @@ class Terms {
 
 }  // namespace
 
-std::string find_singularity(const LinearSystem& system, const SparseMatrix& rows,
-                             const ApplyInverse& apply_inverse) {
+std::string find_singularity(const LinearSystem& system, const SparseMatrix& rows, const ApplyInverse& apply_inverse) {
   constexpr double suspicious = 1e8;  // a singular matrix grows a random vector by 1e16 / sqrt(n), roughly
   constexpr double singular = 3e-15;  // a floating rock shows 1e-16; an open fracture in tight rock has 5e-15
   Vector v = scattered_unit_vector(static_cast<int>(rows.cols()))(system.rows);
@@ -106,8 +105,7 @@ std::string find_singularity(const LinearSystem& system, const SparseMatrix& row
   Vector best;
   for (int step = 0;; ++step) {
     Vector residual = rows * v;
-    const double ratio =
-        std::sqrt(parallel::sum(residual.squaredNorm()) / parallel::sum(terms.of(v).squaredNorm()));
+    const double ratio = std::sqrt(parallel::sum(residual.squaredNorm()) / parallel::sum(terms.of(v).squaredNorm()));
     if (ratio < smallest) {
       smallest = ratio;
       best = v;

@@ -196,8 +196,8 @@ void UmfpackSolver::apply_inverse(Vector& v) const {
   SPREKK_ASSERT(numeric_ != nullptr && v.size() == scaled_.matrix.rows(), v.size(), scaled_.matrix.rows());
   const SparseMatrix& a = scaled_.matrix;
   right_hand_side_ = v;
-  umfpack_di_wsolve(UMFPACK_At, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), v.data(),
-                    right_hand_side_.data(), numeric_, control_.data(), nullptr, integer_work_.data(), work_.data());
+  umfpack_di_wsolve(UMFPACK_At, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), v.data(), right_hand_side_.data(),
+                    numeric_, control_.data(), nullptr, integer_work_.data(), work_.data());
 }
 
 // P A^T Q = L U: pivot k stands for the unknown P[k] (a row of A^T) and the balance Q[k] (a column).

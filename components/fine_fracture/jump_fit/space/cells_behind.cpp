@@ -78,7 +78,8 @@ void see_from(const Mesh& mesh, const std::vector<FrontPiece>& pieces, int numbe
   const FrontPiece& piece = pieces[number];
   constexpr double as_far = 1e-6;  // of the distance: far above round-off
   const OnEdge place = nearest_on(mesh, piece.edges[k], x);
-  if (place.distance > (1 + as_far) * seen.distance || (seen.piece == number && place.distance >= seen.distance)) return;
+  if (place.distance > (1 + as_far) * seen.distance || (seen.piece == number && place.distance >= seen.distance))
+    return;
   const bool is_as_far = place.distance >= (1 - as_far) * seen.distance;
   seen.is_between = is_as_far && (seen.is_between || seen.piece != number);
   const Point left = left_of(piece.edges[k]);

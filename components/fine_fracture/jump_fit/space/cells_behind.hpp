@@ -35,10 +35,10 @@ struct CellBehind {
   /// none where the way to any front leads across a junction, or two pieces are equally near: on a diagonal of equal
   /// cells, where round-off would choose.
   int piece = none;
-  int edge = 0;  ///< of the piece, the nearest
+  int edge = 0;                                               ///< of the piece, the nearest
   double distance = std::numeric_limits<double>::infinity();  ///< m, of the centre of the cell
-  bool is_between = false;                                     ///< whether another piece is as near
-  double arc = 0;       ///< m, of the nearest place on the front
+  bool is_between = false;                                    ///< whether another piece is as near
+  double arc = 0;                                             ///< m, of the nearest place on the front
   /// As those of a RimEdge, at this place. They turn evenly along the front: with those of single edges, which stand
   /// askew to the front by up to half of its bends, part of K_III would count as K_II.
   Tensor axes = Tensor::Zero();
