@@ -109,8 +109,10 @@ void MatrixFlow::carry_over(const Part& part, const MeshChange& change) {
   if (history_) history_->history().hold(true);
   const MatrixFlow& before = dynamic_cast<const MatrixFlow&>(part);
   SPREKK_EXPECT(static_cast<int>(change.cell.size()) == mesh_.cell_count(), change.cell.size(), mesh_.cell_count());
+  // What rock that remembers holds has been evaluated there as at the end of one more step.
   if (stores_by_state() && !change.is_at_start)
-    uncounted_ = shared_in_cells(change, before.mesh_, before.stored_by_state());
+    uncounted_ = history_ ? Vector(Vector::Zero(mesh_.cell_count()))
+                          : shared_in_cells(change, before.mesh_, before.stored_by_state());
   // With several processes, cells may have moved to other processes. Discretizations with unknowns on faces and limited
   // ones are local in cells, and done anew in no time.
   if (!keeps_operators() || by_state_ || parallel::size() > 1 || is_sealed_ || before.is_sealed_ ||

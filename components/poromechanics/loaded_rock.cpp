@@ -56,10 +56,15 @@ void LoadedRock::use_initial_young(const Vector& values) {
 
 void LoadedRock::keep_references(const LoadedRock& before, const MeshChange& change) {
   SPREKK_EXPECT(loads_.size() == before.loads_.size(), loads_.size(), before.loads_.size());
-  for (std::size_t k = 0; k < loads_.size(); ++k)
-    for (std::size_t c = 0; c < change.cell.size(); ++c)
-      if (change.cell[c] != none)
-        loads_[k].reference[static_cast<Eigen::Index>(c)] = before.loads_[k].reference[change.cell[c]];
+  const auto measures = [](const Mesh& mesh) {
+    return Eigen::Map<const Eigen::ArrayXd>(mesh.cell_measure.data(), mesh.cell_count());
+  };
+  for (std::size_t k = 0; k < loads_.size(); ++k) {
+    const Vector& old = before.loads_[k].reference;
+    const Vector sums = shared_in_cells(change, before.mesh_, (old.array() * measures(before.mesh_)).matrix());
+    for (int c = 0; c < mesh_.cell_count(); ++c)
+      loads_[k].reference[c] = change.cell[c] != none ? old[change.cell[c]] : sums[c] / mesh_.cell_measure[c];
+  }
 }
 
 void LoadedRock::require_state() const {

@@ -88,7 +88,7 @@ class LoadedRock : public Component,
   std::uint64_t alpha_version() const;
   /// Takes the present stress for that of the state from which displacements are counted, and begins to count.
   virtual void count_from_equilibrium() = 0;
-  /// On a mesh that has changed: loads are counted from the same values as before, where cells are kept.
+  /// On a mesh that has changed: loads are counted from the same values as before; new cells have means.
   void keep_references(const LoadedRock& before, const MeshChange& change);
   /// Keeps the present stress and jumps of walls as those of such a state. Arguments as of SettledRock.
   void keep_settled(Vector forces, Vector displacements);

@@ -18,6 +18,7 @@
 #include "couplers/advection/well_mixture.hpp"
 #include "framework/assembly/counts_from_here.hpp"
 #include "framework/assembly/follows_mesh.hpp"
+#include "framework/assembly/heeds_stages.hpp"
 #include "framework/assembly/keeps_state.hpp"
 #include "framework/assembly/keeps_totals.hpp"
 #include "framework/scene/registry.hpp"
@@ -35,7 +36,12 @@ namespace sprekk::couplers {
 /// the fluxes are, and nothing is lost or made: the amount is conserved in each schedule, also where the streams are
 /// those of a flow that is solved before or after. What has entered by the start of the step decays at the rate of the
 /// cell, c dt r m_old T: a uniform value stays uniform then, too.
-class Advection : public Coupler, public KeepsState, public FollowsMesh, public KeepsTotals, public CountsAmounts {
+class Advection : public Coupler,
+                  public KeepsState,
+                  public FollowsMesh,
+                  public KeepsTotals,
+                  public CountsAmounts,
+                  public HeedsStages {
  public:
   /// Throws InputError without a flow that carries something, and for wells that the coupler leaves out.
   Advection(const CouplerContext& context, const Carried& carried, const AdvectionOptions& options,
@@ -43,6 +49,9 @@ class Advection : public Coupler, public KeepsState, public FollowsMesh, public 
   /// What is carried through the walls in a step is the same for both sides.
   std::vector<Dependence> dependences() const override;
   bool allows_stages() const override { return true; }
+  std::string need_of_one_clock() const override {
+    return "what fluid carries needs the flow of its own stages, and substeps have others";
+  }
   void evaluate_data(const StepTime& step) override;
   void begin_step(const StepTime&) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;

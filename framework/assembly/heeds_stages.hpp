@@ -13,6 +13,9 @@ class HeedsStages {
   /// within it is not that of the solution. A part whose stored amounts depend on this path then stores changes of its
   /// unknowns times coefficients at the end.
   virtual void take_stages(bool /*are_stages*/) {}
+  /// Why stages of all that the part joins have to be those of the same steps, as the reason of a message; empty where
+  /// substeps of some do no harm.
+  virtual std::string need_of_one_clock() const { return ""; }
   /// What one stage costs in accuracy, as the rest of a sentence that begins with "with backward_euler", where two
   /// stages are recommended; empty where one stage costs too little for a note.
   virtual std::string loss_of_one_stage() const { return ""; }

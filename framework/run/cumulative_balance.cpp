@@ -22,7 +22,7 @@ void CumulativeBalance::note_step(const std::map<std::string, Balance>& balances
     throughput = std::max({throughput, balance.throughput, std::abs(balance.stored), std::abs(balance.injected),
                            std::abs(balance.outflow)});
     const double error = std::abs(balance.stored + balance.outflow - balance.injected);
-    if (tolerance <= most || !(error > most * throughput)) continue;
+    if (tolerance <= most || !balance.is_closed || !(error > most * throughput)) continue;
     notes.add(name + "_balance_error",
               fmt::format("the balance of {} is off by {:.2g} {}, {:.2g} of all that was moved (what is stored, has "
                           "entered and has left does not add up) lower newton.residual, or take smaller steps",

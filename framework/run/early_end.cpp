@@ -6,10 +6,6 @@ namespace sprekk {
 
 void EarlyEnd::check(const Model& model, const StepTime& step, const std::vector<Quantity>& quantities) {
   if (is_steady(model, step)) steady_since_ = step.start;
-  check_stop(quantities);
-}
-
-void EarlyEnd::check_stop(const std::vector<Quantity>& quantities) {
   has_stopped_ = stop_.is_reached(quantities);
   if (has_stopped_) stop_text_ = stop_.text(quantities);
 }

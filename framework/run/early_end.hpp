@@ -18,8 +18,6 @@ class EarlyEnd {
 
   /// Checks a step that is about to be accepted, with the quantities at its end.
   void check(const Model& model, const StepTime& step, const std::vector<Quantity>& quantities);
-  /// Checks `stop:` alone, with the quantities of an accepted state from which a run goes on.
-  void check_stop(const std::vector<Quantity>& quantities);
 
   bool is_reached() const { return steady_since_ || has_stopped_; }
   std::string text() const;                          ///< "fluid_injected has reached 3 m^2", "steady since 3 h"

@@ -120,7 +120,6 @@ Simulation::Simulation(const Scene& scene, const RunOptions& options)
   continued_ = restart_->continued(state_);
   restart_.reset();
   std::vector<Quantity> columns = state_.model->quantities();
-  if (state_.controller.steps() > 0) early_end_.check_stop(columns);
   std::ranges::copy(state_.splitting_error.quantities(), std::back_inserter(columns));
   require_columns(columns, output_);
 }

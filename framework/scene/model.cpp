@@ -263,6 +263,7 @@ std::vector<Quantity> Model::quantities() const {
     quantities.push_back({name + "_stored", balance.unit, balance.stored});
     quantities.push_back({name + "_injected", balance.unit, balance.injected});
     quantities.push_back({name + "_outflow", balance.unit, balance.outflow});
+    if (!balance.is_closed) continue;
     quantities.push_back({name + "_balance_error", balance.unit, balance.stored + balance.outflow - balance.injected});
   }
   std::vector<double> values;

@@ -3,10 +3,25 @@
 
 #include <algorithm>
 
+#include "framework/assembly/heeds_stages.hpp"
+#include "framework/assembly/lives_in_part.hpp"
 #include "framework/assembly/state_fields.hpp"
 #include "framework/output/vtu_writer.hpp"
+#include "framework/schedule/subcycle_step.hpp"
 
 namespace sprekk {
+
+namespace {
+
+/// Whether some, and not all, of so many unknowns take substeps.
+bool has_other_clocks(const ScheduleStep& step, std::size_t unknowns) {
+  const auto* substeps = dynamic_cast<const SubcycleStep*>(&step);
+  if (substeps && substeps->has_own_clock() && substeps->unknowns().size() < unknowns) return true;
+  return std::ranges::any_of(step.children(),
+                             [&](const ScheduleStep* inside) { return has_other_clocks(*inside, unknowns); });
+}
+
+}  // namespace
 
 void Model::check_outputs() const {
   std::vector<FrameOutputChoice> outputs = scene_.output.chosen_outputs();
@@ -47,6 +62,11 @@ void Model::check_stages() const {
     if (!component->allows_stages()) refuse("component '" + component->name() + "'");
   for (const auto& coupler : couplers_)
     if (!coupler->allows_stages()) refuse("coupler '" + coupler->name() + "'");
+  for (const auto* heeding : parts_with<HeedsStages>(parts_))
+    if (const std::string why = heeding->need_of_one_clock();
+        !why.empty() && has_other_clocks(*schedule_, schedule_->unknowns().size()))
+      throw InputError(scene_.time.scheme_origin, "two stages in steps of several lengths", why,
+                       "leave 'scheme' out, or put all into one 'subcycle'");
 }
 
 void Model::check_data() {

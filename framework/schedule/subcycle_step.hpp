@@ -47,6 +47,7 @@ class SubcycleStep : public ScheduleStep {
   void check() const override { inside_->check(); }
   void require_held(const StepTime& step) const override { inside_->require_held(step); }
   std::string describe() const override;
+  bool has_own_clock() const { return !options_.is_implied && options_.count > 1; }
   std::vector<const ScheduleStep*> children() const override;
   void note_step(Notes& notes, const StepTime& step) const override { inside_->note_step(notes, step); }
   void add_counts(LinearCounts& counts) const override { inside_->add_counts(counts); }

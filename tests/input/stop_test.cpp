@@ -23,22 +23,6 @@ TEST(Stop, IsTheReasonOfTheEnd) {
   EXPECT_THAT(outcome.err, HasSubstr("ended after step 2 at t = 20 min 0 s: fluid_injected has reached 1e-6 m^2"));
 }
 
-TEST(Stop, HoldsForARunThatGoesOn) {
-  const Folder folder;
-  const std::vector<std::string> call_of_run =
-      call("run", "fractured.yaml", {"time.stop={of: fluid_injected, reaches: 1e-6 m^2}"});
-  std::vector<std::string> first = call_of_run, again = call_of_run;
-  first.insert(first.end(), {"-o", "out"});
-  again.insert(again.end(), {"-o", "out", "--restart"});
-  ASSERT_EQ(sprekk_command(first, folder.path()).code, 0);
-  const std::string history = text_of(folder / "out/history.csv");
-  const Outcome outcome = sprekk_command(again, folder.path());
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(text_of(folder / "out/history.csv"), history);
-  EXPECT_EQ(Json::parse(text_of(folder / "out/run.json"))["exit"]["reason"],
-            "stopped: fluid_injected has reached 1e-6 m^2");
-}
-
 TEST(Stop, ComesFromAboveToo) {
   // The left side at 0 Pa drains the loaded rock: the pressure is far above 0 after the first step, and falls.
   const Settings drained = {"output.probes={p: {of: pore.pressure, take: mean}}", "time.end=10 day", "time.step=1 h"};

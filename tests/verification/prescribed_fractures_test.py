@@ -25,9 +25,9 @@ time: {end: 100 s, step: 10 s}
 output: {fields: false}
 """
 SPACE = (PLANE.replace("y: [0 m, 8 m]", "y: [0 m, 8 m], z: [-6 m, 0 m]").replace("{size: 1 m, fracture_size: 0.5 m}", "{size: 2 m, fracture_size: 1 m}")
-         .replace("[[2 m, 3.1 m], [7 m, 5.3 m]]", "[[2 m, 3.1 m, -5 m], [7 m, 5.3 m, -4.5 m], [6.5 m, 5 m, -1 m], [2.2 m, 3.2 m, -1.5 m]]")
-         .replace("[[4 m, 1 m], [5.5 m, 7 m]]", "[[4 m, 1 m, -5.5 m], [5.5 m, 7 m, -5 m], [5.2 m, 6.5 m, -2 m], [4.2 m, 1.5 m, -1.2 m]]")
-         .replace("at: [4.2 m, 1.8 m]", "at: [4.3 m, 2 m, -3 m]"))
+         .replace("[[2 m, 3.1 m], [7 m, 5.3 m]]", "[[2 m, 3.1 m, -5 m], [7 m, 5.3 m, -4.5 m], [7 m, 5.3 m, -1 m], [2 m, 3.1 m, -1.5 m]]")
+         .replace("[[4 m, 1 m], [5.5 m, 7 m]]", "[[4 m, 1 m, -5.5 m], [5.5 m, 7 m, -5 m], [5.5 m, 7 m, -2 m], [4 m, 1 m, -1.2 m]]")
+         .replace("at: [4.2 m, 1.8 m]", "at: [4.3 m, 2.2 m, -3 m]"))
 SCHEMES = {"together": "{solve: [pore, conduit]}",
            "in turn": "{iterate: {until: {relative: 1e-12, at_most: 200}, accelerate: {anderson: 5}, steps: [{solve: pore}, {solve: conduit}]}}",
            "substeps": "{subcycle: {count: 3, steps: [{solve: [pore, conduit]}]}}"}

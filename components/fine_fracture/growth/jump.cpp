@@ -225,7 +225,11 @@ void FrontJump::conclude() {
     // The first part begins on another mesh.
     if (record.advance > 0 && now_.load[i] > from_.load[i] && !record.is_unstable) {
       record.is_unstable = true;
-      if (record.falls) record.begins = record.advance, record.surplus = 0;
+      if (record.falls) {
+        record.begins = record.advance;
+        record.surplus = 0;
+        record.largest_load = from_.load[i];
+      }
     }
     record.falls = now_.load[i] < from_.load[i];
     record.surplus += 0.5 * (excess(from_.load[i]) + excess(now_.load[i])) * advance;

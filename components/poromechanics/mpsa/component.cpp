@@ -26,7 +26,13 @@ StressOperators discretize_inputs(const StressInputs& inputs, const std::vector<
 class Mpsa : public Rock {
  public:
   Mpsa(const ComponentContext& context, const MpsaOptions& options)
-      : Rock(context, options, {discretize_inputs, rediscretize_mpsa}) {}
+      : Rock(context, options, {discretize_inputs, rediscretize_mpsa}) {
+    const bool has_springs = std::ranges::any_of(options.boundary, [](const auto& s) { return s.second.has_spring(); });
+    if (dimension == 3 && has_springs)
+      throw InputError(context.origin, "'" + name() + "' takes no springs in space",
+                       "edges and corners of the rock would not be held by them",
+                       "take poromechanics/fem, or hold the side");
+  }
 
   void note_input(Notes& notes) const override {
     Rock::note_input(notes);

@@ -70,6 +70,7 @@ void History::require_named(std::uint32_t named, const std::string& parameters) 
 }
 
 void History::show(const StepToRemember& step, const StateAt& state_at) {
+  if (is_held_ || step.end == step.start) return;  // the state is still to be found
   for (Place& at : places_) at.t = step.end;
   OfAll state{};
   const std::span<double> followed(state.data(), followed_->size());
@@ -103,7 +104,7 @@ void History::begin_step(const StepToRemember& step, const StateAt& state_at) {
       state_at(i, followed);
       values[i] = value(k, i, followed, {}, Memory::none);
     }
-    if (!is_at_start && values != fields_[k]->accepted()) fields_[k]->set_accepted(values);
+    if (!is_at_start && !is_held_ && values != fields_[k]->accepted()) fields_[k]->set_accepted(values);
     before.push_back(std::move(values));
   }
   const double time = is_held_ || is_at_start ? 0 : step.dt, length = is_held_ ? 0 : step.dt;

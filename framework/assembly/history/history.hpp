@@ -47,7 +47,8 @@ class History {
   /// Throws InputError for a variable without a bit in `named`, those that formulas name. `parameters`: which may.
   void require_named(std::uint32_t named, const std::string& parameters) const;
 
-  /// Where nothing has been remembered yet, fields show the present values.
+  /// Where nothing has been remembered yet, fields show the present values; not while a start is settled or the mesh
+  /// changes.
   void show(const StepToRemember& step, const StateAt& state_at);
   void begin_step(const StepToRemember& step, const StateAt& state_at);
   /// Keeps what the state at the end of the step makes of the values.

@@ -7,8 +7,9 @@
 namespace sprekk {
 namespace {
 
-std::map<std::string, Balance> fluid(double stored, double injected, double outflow, double throughput) {
-  return {{"fluid", {stored, injected, outflow, throughput, "m^2"}}};
+std::map<std::string, Balance> fluid(double stored, double injected, double outflow, double throughput,
+                                     bool is_closed = true) {
+  return {{"fluid", {stored, injected, outflow, throughput, "m^2", is_closed}}};
 }
 
 constexpr double loose = 1e-3;  // of what a step moves, as a schedule keeps balances
@@ -68,6 +69,13 @@ TEST(CumulativeBalance, OfAPartWithoutThroughputAreComparedWithTheirAmounts) {
     ASSERT_EQ(notes.all().size(), 1U);
     for (const Notes::Note& note : notes.all()) EXPECT_NEAR(note.measure, 1, 1e-6);
   }
+}
+
+TEST(CumulativeBalance, ThatAreNotClosedAreNotTold) {
+  CumulativeBalance balance;
+  Notes notes;
+  balance.note_step(fluid(1, 0, 0, 1, false), loose, notes);
+  EXPECT_TRUE(notes.empty());
 }
 
 }  // namespace
