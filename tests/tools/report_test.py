@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """report_test.py SPREKK: the report of a run, opened in a browser without a screen, draws and complains about nothing."""
 
 import csv
