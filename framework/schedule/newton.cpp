@@ -314,6 +314,7 @@ std::string Newton::find_update(ResidualCheck& check, Vector& update) {
   report = linear_->solve(right_hand_side(check), update);
   if (!report.solved && take_coupled_sums(check) && linear_->factor(system_.matrix(*assembly_)).solved)
     report = linear_->solve(right_hand_side(check), update);
+  was_singular_ = !report.solved;  // or so near to it that its solution means nothing
   return report.solved ? "" : "linear solver: " + report.reason;
 }
 
