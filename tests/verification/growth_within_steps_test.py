@@ -15,7 +15,7 @@ TOUGHNESS = 0.7e6  # Pa m^0.5, of the scene
 
 class GrowthWithinSteps(SceneRuns):
     def test_tips_rest_at_their_toughness(self):
-        scenes, settings = [SCENE, self.write(WITHIN_STEPS, "within.yaml")], (*VALUES_OF_PAPER, "time.end=4 h")
+        scenes, settings = [SCENE, self.write(WITHIN_STEPS, "within.yaml")], (*VALUES_OF_PAPER, "time.end=4 h", "schedule.1.overshoot=2e-3")
         results = self.run_scene(scenes, *settings)
         rows = results.rows
         followed = [row for row in rows if min(row["tips.main_first.length"], row["tips.main_last.length"]) > TAKEN_OVER]

@@ -185,7 +185,8 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     Tips::Tip* same = same_tip(there, static_cast<int>(i));
     if (!same) continue;
     // A path that the fine level had found before this step is no growth in it.
-    const double grown = same->now.grown - tips_.tips_[i].now.grown - at_start_[i].first_length;
+    const double grown =
+        same->now.grown - tips_.tips_[i].now.grown - std::max(at_start_[i].first_length, at_start_[i].least);
     same->now.speed_before = tips_.tips_[i].now.speed;
     same->now.turning_before = tips_.tips_[i].now.turning;
     same->now.lasted_before = tips_.tips_[i].now.lasted;
