@@ -9,7 +9,6 @@
 #include "framework/mesh/plane/planar.hpp"
 #include "framework/remeshing/healed_mesh.hpp"
 #include "framework/remeshing/obstacles.hpp"
-#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -18,6 +17,10 @@ using Reason = ExtensionError::Reason;
 
 /// A path approaches a segment if the distance of the path falls below this part of the distance of its beginning.
 constexpr double approach = 0.9;
+/// What rounding leaves of a length, or of the cosine of 90 degrees.
+constexpr double rounding = 1e-12;
+/// Of an edge: a shorter segment of a path has no direction.
+constexpr double shortest = 1e-6;
 /// Factor on the least gap where a tip looks ahead: it asks for more room than the check of its next path will.
 constexpr double room_ahead = 1.5;
 /// Two parts of one path must be farther from each other than this part of their distance along the path.
@@ -60,7 +63,7 @@ bool leads_away(const Segment& step, const Point& beginning, const Segment& line
 class Check {
  public:
   Check(const Mesh& mesh, const std::vector<PathExtension>& extensions, double size)
-      : mesh_(mesh), size_(size), touch_(rounding::same * extent(mesh)), extensions_(extensions) {}
+      : mesh_(mesh), size_(size), touch_(rounding * extent(mesh)), extensions_(extensions) {}
 
   std::vector<PathExtension> run() {
     for (index_ = 0; index_ < static_cast<int>(extensions_.size()); ++index_) {
@@ -113,10 +116,10 @@ class Check {
     Point from = end.center, before = end.before;
     for (const Point& to : own.points) {
       if (!to.allFinite()) refuse(Reason::no_path, from, "gets a point that is no number", "after this one");
-      if ((to - from).norm() <= std::max(touch_, rounding::far_above * size_)) {
+      if ((to - from).norm() <= std::max(touch_, shortest * size_)) {
         refuse(Reason::no_path, from, "gets a segment without length", "two points of the path are one");
       }
-      if ((to - from).dot(from - before) < -rounding::same * (to - from).norm() * (from - before).norm()) {
+      if ((to - from).dot(from - before) < -rounding * (to - from).norm() * (from - before).norm()) {
         refuse(Reason::turns_back, from, "turns back", "by more than 90 degrees");
       }
       before = from;
