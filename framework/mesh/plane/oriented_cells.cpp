@@ -6,17 +6,19 @@
 #include "framework/config/input_error.hpp"
 #include "framework/mesh/plane/cell_shape.hpp"
 #include "framework/mesh/plane/planar.hpp"
-#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
+
+/// Twice the area over the square of the longest edge, about the smallest angle in rad, below which geometry is lost
+/// to rounding.
+constexpr double smallest_flatness = 1e-10;
 
 void require_triangle(const std::vector<Point>& nodes, const Ring& cell) {
   const Point &p = nodes[cell[0]], &q = nodes[cell[1]], &r = nodes[cell[2]];
   const double longest = std::max({(q - p).squaredNorm(), (r - q).squaredNorm(), (p - r).squaredNorm()});
   // The comparison is negated so that NaN is refused, too.
-  // Twice the area over the square of the longest edge: about the smallest angle in rad.
-  if (!(std::abs(2 * signed_area(p, q, r)) > rounding::same * longest)) {
+  if (!(std::abs(2 * signed_area(p, q, r)) > smallest_flatness * longest)) {
     throw InputError("the triangle at " + to_text((p + q + r) / 3) + " is degenerate (it has no area)");
   }
 }
@@ -31,7 +33,7 @@ void require_convex(const std::vector<Point>& nodes, const Ring& cell) {
   Ring turned = cell;
   turned.turn();
   const double smallest = std::max(smallest_corner_area(nodes, cell), smallest_corner_area(nodes, turned));
-  if (!mean.allFinite() || !(2 * smallest > rounding::same * longest)) {
+  if (!mean.allFinite() || !(2 * smallest > smallest_flatness * longest)) {
     throw InputError("the quadrilateral at " + to_text(mean) +
                      " is not convex (a corner of it has no angle below 180 degrees) cut it into triangles");
   }
