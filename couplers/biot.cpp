@@ -273,13 +273,13 @@ class Biot : public Coupler,
  private:
   static constexpr const char* undrained = "undrained";  ///< the name of a stabilization
 
-  /// Whether a change of the rock's volume is added to the balance of the fluid.
   /// The change of volume of each cell in the present state. Collective.
   Vector volume_now() const {
     Vector volume = rock_.volume_change().now();
     exchange(mesh_, Location::cell, 1, volume);
     return volume;
   }
+  /// Whether a change of the rock's volume is added to the balance of the fluid.
   bool stores_volume() const { return !decoupled_ && !options_.one_way && !fluid_.has_pores_by_formula(); }
 
   void check_pores() const {

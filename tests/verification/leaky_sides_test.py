@@ -3,7 +3,7 @@
 
 - Closed forms: a column in steady flow; a slab that leaks (Carslaw and Jaeger, sec. 3.11), with orders in time and space; linear pressures, which are
   exact in a plane and in space with fractures that cross; fluid at rest under gravity.
-- Limits: a given pressure and a closed side. Seepage: a face that seeps everywhere, one that seeps below some height, and one that opens at a known time.
+- Limits: a given pressure and a closed side.
 - With rock, contact and fractures: turned, mirrored, disturbed by 1e-9, on two processes, by other solvers; restarted to the bit; balances."""
 
 import math
@@ -12,35 +12,9 @@ import unittest
 import numpy as np
 
 from hexahedra import TURN, mesh_file
+from leaky_column import HEIGHT, K, KINDS, LENGTH, MU, column
 from scene_runs import on_two_processes, sprekk
 from scenes_in_space import CUTS, LINEAR, SIDES, SpaceRuns, linear, scene as in_space
-
-KINDS = ("tpfa", "mpfa", "rt0", "ntpfa")
-K, MU, LENGTH, HEIGHT = 2e-3, 0.5, 3.0, 0.7  # m^2, Pa s, m
-COLUMN = f"""
-name: column
-geometry: {{box: {{x: [0 m, {LENGTH} m], y: [0 m, {HEIGHT} m]}}}}
-mesh: {{kind: structured, shape: quadrilaterals, cells: [CELLS, 2]}}
-components:
-  pore:
-    type: matrix_flow/KIND
-    permeability: {K} m^2
-    viscosity: {MU} Pa*s
-    storage: STORAGE 1/Pa
-    initial_pressure: INITIAL Pa
-    boundary: {{BOUNDARY}}
-schedule: [{{solve: pore}}]
-time: {{end: 1 s, step: STEP}}
-output: {{fields: false, probes: {{p: {{of: pore.pressure, take: mean}}}}}}
-"""
-
-
-def column(kind, boundary, cells=7, storage=0.0, initial=0.0, step="1 s"):
-    text = COLUMN
-    for name, value in (("KIND", kind), ("BOUNDARY", boundary), ("CELLS", cells), ("STORAGE", storage), ("INITIAL", initial), ("STEP", step)):
-        text = text.replace(name, str(value))
-    return text
-
 
 def slab_mean(biot, number):
     """Of a slab of thickness 1 and diffusivity 1, closed at one face, with −dv/dx = Bi v at the other, v = 1 at first (Carslaw and Jaeger 1959, sec. 3.11)."""
@@ -293,70 +267,6 @@ couplers: [{type: buoyancy, between: [pore, heat], fluid_expansion: 1e-3 1/K, re
 schedule: [{solve: [pore, heat]}]""")
             self.assertLess(abs(self.run_text(warm)["pore.top.outflow"][-1]), 1e-11, kind)
             self.assertGreater(self.run_text(text)["pore.top.outflow"][-1], 1e-7)
-
-    def test_a_face_that_seeps_everywhere(self):
-        """Water of level h1 far above the block on its left, of level h2 on its right: k rho g (h1 H − (H^2 + h2^2)/2)/(mu L), by Green's formula with the
-        function x, since the top and the bottom are closed."""
-        level, low, weight = 10 * HEIGHT, 0.3 * HEIGHT, 9810.0
-        sides = f"left: {{pressure: ({weight}*({level} - y/m)) Pa}}, right: {{outer_pressure: \"({weight}*max(0, {low} - y/m)) Pa\", only_out: true}}"
-        exact = K / MU * weight * (level * HEIGHT - (HEIGHT**2 + low**2) / 2) / LENGTH
-        for kind in KINDS:
-            text = column(kind, sides, 20).replace(", 2]", ", 10]").replace("    boundary", "    gravity: [0, -9.81 m/s^2]\n    boundary")
-            self.assertLess(abs(self.run_text(text)["pore.right.outflow"][-1] / exact - 1), 1e-10, kind)
-
-    def test_a_face_that_seeps_below_some_height(self):
-        """Water as high as the block on its left: against the same two-point fluxes by numpy, with the one set of open faces for which all let out and no
-        closed one exceeds the pressure outside."""
-        cells, rows, low, weight = 20, 10, 0.3 * HEIGHT, 9810.0
-        y = (np.arange(rows) + 0.5) * HEIGHT / rows
-        outer = weight * np.maximum(0, low - y) + weight * y  # heads times the weight
-        along, across = K / MU * (HEIGHT / rows) / (LENGTH / cells), K / MU * (LENGTH / cells) / (HEIGHT / rows)
-        answers = []
-        for is_open in ([k < count for k in range(rows)] for count in range(rows + 1)):
-            matrix, loads = np.zeros((cells * rows, cells * rows)), np.zeros(cells * rows)
-            for i, j in np.ndindex(cells, rows):
-                one = i * rows + j
-                for other, t in ((one + rows, along) if i + 1 < cells else (one, 0), (one + 1, across) if j + 1 < rows else (one, 0)):
-                    matrix[[one, other], [one, other]] += t
-                    matrix[[one, other], [other, one]] -= t
-                for here, head in ((i == 0, weight * HEIGHT), (i == cells - 1 and is_open[j], outer[j])):
-                    matrix[one, one] += 2 * along * here
-                    loads[one] += 2 * along * head * here
-            heads = np.linalg.solve(matrix, loads).reshape(cells, rows)
-            flows = 2 * along * (heads[-1] - outer) * is_open
-            if flows.min() >= 0 and np.all((heads[-1] <= outer) | is_open):
-                answers.append((flows.sum(), (heads - weight * y).mean()))
-        self.assertEqual(len(answers), 1)
-        sides = f"left: {{pressure: ({weight}*({HEIGHT} - y/m)) Pa}}, right: {{outer_pressure: \"({weight}*max(0, {low} - y/m)) Pa\", only_out: true}}"
-        text = column("tpfa", sides, cells).replace(", 2]", f", {rows}]").replace("    boundary", "    gravity: [0, -9.81 m/s^2]\n    boundary")
-        for initial in ("0 Pa", "1 MPa", "-1 MPa"):
-            results = self.run_text(text, f"components.pore.initial_pressure={initial}")
-            self.assertLess(abs(results["pore.right.outflow"][-1] / answers[0][0] - 1), 1e-10, initial)
-            self.assertLess(abs(results["p"][-1] / answers[0][1] - 1), 1e-10, initial)
-
-    def test_a_side_that_opens_at_a_known_time(self):
-        """A source fills a closed column evenly, p = s t/S, until p is what stands outside; in the end all of the source leaves, and p is a parabola. Then
-        the source draws, and nothing enters."""
-        storage, source, outer = 0.1, 0.8, 2.0
-        for kind in KINDS:
-            for more, extra in (("", 0), (", conductance: 5e-3 m/(Pa*s)", source * LENGTH / 5e-3)):
-                text = column(kind, f"right: {{outer_pressure: {outer} Pa, only_out: true{more}}}", 6, storage, 0.0, "0.03125 s")
-                text = text.replace("    boundary", f"    source: {source} 1/s\n    boundary")
-                results = self.run_text(text)
-                filled = results.times <= outer * storage / source + 1e-12  # 0.25 s
-                self.assertEqual(filled.sum(), 8)
-                self.assertLess(np.abs(results["p"][filled] - source * results.times[filled] / storage).max(), 1e-12)
-                self.assertLess(np.abs(results["pore.right.outflow"][filled]).max(), 1e-12)
-                self.assertGreater(results["pore.right.outflow"][~filled].min(), 1e-4)
-                self.assertLess(np.abs(results.history["fluid_balance_error[m^2]"]).max(), 1e-12)
-                steady = self.run_text(text, "time={end: 1e5 s, step: 1e4 s}")
-                self.assertLess(abs(steady["pore.right.outflow"][-1] / (source * LENGTH * HEIGHT) - 1), 1e-9)
-                exact = outer + extra + source * MU / K * LENGTH**2 / 3
-                self.assertLess(abs(steady["p"][-1] / exact - 1), 0.03)  # six cells
-                drawn = self.run_text(text, "components.pore.source=if(t < 0.5*s, 0.8, -3) 1/s")
-                self.assertGreaterEqual(drawn["pore.right.outflow"].min(), 0)
-                self.assertEqual(drawn["pore.right.outflow"][-1], 0)
-                self.assertLess(np.abs(drawn.history["fluid_balance_error[m^2]"]).max(), 1e-12)
 
     def test_twins_with_rock_and_contact(self):
         scene = self.write(BOX, "box.yaml")

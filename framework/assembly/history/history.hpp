@@ -91,7 +91,7 @@ class TakesHistory {
   std::uint32_t followed() const { return followed_; }  ///< a bit for each variable of the formula
   double at(const Data& data, const Place& at, int place, std::span<const double> values, std::span<double> by,
             Memory memory) const;
-  std::uint64_t version() const { return history_ ? history_->version() : 0; }
+  std::uint64_t version() const { return is_needed() ? history_->version() : 0; }
 
  private:
   const History* history_ = nullptr;

@@ -5,6 +5,7 @@
 
 #include "framework/dense/least_squares.hpp"
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk {
 namespace {
@@ -30,7 +31,6 @@ struct Fit {
 
 /// Of the linear function that fits these cells best; it is constant in directions in which they do not differ.
 Fit fitted(const Mesh& mesh, const std::vector<int>& cells, const FractureCell& home, const Point& x) {
-  constexpr double same_place = 1e-6;  // of the extent of the cells: far above round-off
   const auto count = static_cast<Eigen::Index>(cells.size());
   Point mean = Point::Zero();
   for (const int cell : cells) mean += mesh.fracture_cells[cell].center / static_cast<double>(count);
@@ -40,7 +40,7 @@ Fit fitted(const Mesh& mesh, const std::vector<int>& cells, const FractureCell& 
   if (count > 1) {
     Eigen::MatrixXd slopes(count, dimension - 1);
     for (Eigen::Index i = 0; i < count; ++i) slopes.row(i) = from_mean(mesh.fracture_cells[cells[i]].center);
-    const LeastSquares fit(slopes, same_place);
+    const LeastSquares fit(slopes, rounding::far_above);
     result.directions = fit.rank();
     by_slope = (from_mean(x) * fit.pseudo_inverse()).transpose();
   }

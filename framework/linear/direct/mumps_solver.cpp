@@ -193,7 +193,6 @@ Change MumpsSolver::take(const LinearSystem& system) {
   if (change == Change::nothing) return change;
   system_.rows = system.rows;
   system_.blocks = system.blocks;
-  system_.sums = system.sums;
   const Stopwatch watch(counts_.seconds_factor);
   scaled_ = equilibrate(system);
   return change;

@@ -68,7 +68,6 @@ LinearReport UmfpackSolver::factor(const LinearSystem& system) {
   }
   system_.rows = system.rows;
   system_.blocks = system.blocks;
-  system_.sums = system.sums;
   if (numeric_ != nullptr) umfpack_di_free_numeric(&numeric_);
   if (change == Change::pattern && symbolic_ != nullptr) umfpack_di_free_symbolic(&symbolic_);
   {

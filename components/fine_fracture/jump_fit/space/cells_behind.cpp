@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "framework/round_off.hpp"
+
 namespace sprekk::fine_fracture {
 
 namespace {
@@ -76,11 +78,11 @@ OnEdge nearest_on(const Mesh& mesh, const RimEdge& edge, const Point& x) {
 void see_from(const Mesh& mesh, const std::vector<FrontPiece>& pieces, int number, int k, const Point& x,
               CellBehind& seen) {
   const FrontPiece& piece = pieces[number];
-  constexpr double as_far = 1e-6;  // of the distance: far above round-off
   const OnEdge place = nearest_on(mesh, piece.edges[k], x);
-  if (place.distance > (1 + as_far) * seen.distance || (seen.piece == number && place.distance >= seen.distance))
+  if (place.distance > (1 + rounding::far_above) * seen.distance ||
+      (seen.piece == number && place.distance >= seen.distance))
     return;
-  const bool is_as_far = place.distance >= (1 - as_far) * seen.distance;
+  const bool is_as_far = place.distance >= (1 - rounding::far_above) * seen.distance;
   seen.is_between = is_as_far && (seen.is_between || seen.piece != number);
   const Point left = left_of(piece.edges[k]);
   Point ahead = (1 - place.share) * piece.ahead[k] + place.share * piece.ahead[k + 1];
