@@ -1,4 +1,8 @@
 // thermal_stress: temperature loads the rock, sigma = C : grad u − 3 K alpha_T (T − T_0) I (Biot 1956; Nowacki 1986).
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "components/capabilities/poroelastic_rock.hpp"
 #include "components/capabilities/temperature.hpp"
 #include "components/capabilities/usual_ranges.hpp"
@@ -54,6 +58,18 @@ class ThermalStress : public Coupler {
     remember();
   }
   void begin_step(const StepTime&) override {}
+  void note_input(Notes& notes) const override {
+    constexpr double noticeable = 1.01;
+    const double ratio = rock_.unequal_expansion();
+    if (ratio <= noticeable) return;
+    notes.add(
+        name() + " of anisotropic rock",
+        fmt::format("{0} loads anisotropic rock with the same stress in all directions, -3 K expansion (T - T_0): "
+                    "free rock expands {1} as much along one axis as along another, and nowhere by 'expansion' "
+                    "alone (a coefficient for each axis does not exist) read strains with care, or give the rock "
+                    "an isotropic stiffness",
+                    name(), std::isinf(ratio) ? "infinitely" : fmt::format("{:.3g} times", ratio)));
+  }
   void assemble(Assembly&, const StepTime&) const override {}
   std::vector<double> switch_times() const override { return switch_times_; }
 

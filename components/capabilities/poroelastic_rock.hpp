@@ -31,6 +31,9 @@ class PoroelasticRock {
   virtual double largest_load() const = 0;
   /// The drained bulk modulus of each cell, Pa.
   virtual const Property& bulk_modulus() const = 0;
+  /// How unequally free rock expands under an equal pressure in its pores: the largest strain along an axis over the
+  /// smallest one, in the cell where that is most; 1 where the rock is isotropic.
+  virtual double unequal_expansion() const { return 1; }
 };
 
 /// Capability: accepts tractions on the walls of fractures, and gives the jump of the displacement across them.

@@ -61,6 +61,7 @@ class LoadedRock : public Component,
   void accept_pore_pressure(const Field& pressure, const Vector& alpha, const Vector& reference) override;
   void change_alpha(const Field& pressure, const Vector& alpha) override;
   const Property& bulk_modulus() const override { return stiffness_.bulk_modulus(); }
+  double unequal_expansion() const override { return stiffness_.unequal_expansion(); }
   Field& wall_traction() override { return *wall_traction_; }
   void count_jumps_from(const Vector& jumps) override;
 

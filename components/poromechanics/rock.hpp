@@ -34,6 +34,7 @@ class Rock : public LoadedRock, public FollowsMesh {
   double largest_load() const override;
   const LinearExpression& volume_change() const override { return volume_change_; }
   const LinearExpression& displacement_jump() const override { return jump_; }
+  std::string flaw_of_jumps() const override;
   Vector outer_displacement() const override;
   Vector mean_stress() const override;
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "components/capabilities/state_of_cells.hpp"
@@ -60,6 +63,22 @@ void RockStiffness::compute() {
   Vector bulk_modulus(cells);
   for (int c = 0; c < cells; ++c) bulk_modulus[c] = moduli_[0][c] / (3 * (1 - 2 * moduli_[1][c]));
   bulk_modulus_.set(std::move(bulk_modulus));
+}
+
+double RockStiffness::unequal_expansion() const {
+  double most = 1;
+  for (int c = 0; options_.is_anisotropic && c < static_cast<int>(stiffness_.size()); ++c) {
+    const SymmetricTensor strain = at(c).inverse() * isotropic_components();
+    Tensor tensor;
+    for (int k = 0; k < symmetric_components; ++k) {
+      const auto [i, j] = symmetric_axes[k];
+      tensor(i, j) = tensor(j, i) = i == j ? strain[k] : 0.5 * strain[k];
+    }
+    const Eigen::VectorXd along_axes = symmetric_eigenvalues(tensor);
+    const double least = along_axes[0], largest = along_axes[dimension - 1];
+    most = std::max(most, least > 0 ? largest / least : std::numeric_limits<double>::infinity());
+  }
+  return most;
 }
 
 std::optional<LameParameters> RockStiffness::lame(int cell) const {

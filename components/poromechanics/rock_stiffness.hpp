@@ -32,6 +32,7 @@ class RockStiffness {
   const std::vector<Stiffness>& of_cells() const { return stiffness_; }
   std::optional<LameParameters> lame(int cell) const;             ///< none for anisotropic rock
   const Property& bulk_modulus() const { return bulk_modulus_; }  ///< Pa
+  double unequal_expansion() const;                               ///< as in PoroelasticRock
   const Excavation& excavation() const { return excavation_; }
   bool changes() const { return changes_; }           ///< whether a property depends on time
   std::uint64_t version() const { return version_; }  ///< grows whenever a stiffness has changed

@@ -34,8 +34,9 @@ void Advection::evaluate_data(const StepTime& step) {
   disperse(true, true);
 }
 
-void Advection::begin_step(const StepTime&) {
+void Advection::begin_step(const StepTime& step) {
   if (!options_.is_limited()) return;
+  begun_with_ = step.dt;
   // Sides with a value are known when data have been evaluated.
   if (rock_.value && !limited_in_rock_) limited_in_rock_.emplace(mesh_, *in_rock_);
   if (fractures_.value && !limited_in_fractures_) limited_in_fractures_.emplace(mesh_, *in_fractures_);

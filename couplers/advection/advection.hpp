@@ -53,7 +53,7 @@ class Advection : public Coupler,
     return "what fluid carries needs the flow of its own stages, and substeps have others";
   }
   void evaluate_data(const StepTime& step) override;
-  void begin_step(const StepTime&) override;
+  void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;
   void carry_over(const Part& before, const MeshChange&) override {
@@ -116,6 +116,7 @@ class Advection : public Coupler,
   std::vector<Vector> at_start_;  ///< values of the cells that fluid reaches
   FluidContents rock_, fractures_;
   std::optional<LimitedValues> limited_in_rock_, limited_in_fractures_;  ///< empty with the scheme `upwind`
+  double begun_with_ = 0;                                                ///< s: the length of the step
   std::optional<HeldFlow> flow_;
   std::vector<std::pair<std::string, double>> injected_;  ///< values in this step
   /// Whether dispersion is that of the step before, because the last solve was for the flow as well.

@@ -68,7 +68,9 @@ Vector Advection::weights_of(const FluidContents& place, const std::vector<Strea
   Vector capacity = place.capacity_at_start();
   const Vector& at_start = place.location == Location::cell ? in_rock_->capacity() : in_fractures_->capacity();
   if (at_start.size() == capacity.size()) capacity += at_start;
-  return limited_of(place)->weights(streams, capacity, options_.per_volume * step.dt);
+  // A state that is settled rests in the equations of the first step.
+  const double length = step.end == step.start ? begun_with_ : step.dt;
+  return limited_of(place)->weights(streams, capacity, options_.per_volume * length);
 }
 
 void Advection::add(Assembly& assembly, const FluidContents& place, const std::vector<Stream>& streams,

@@ -185,6 +185,7 @@ class Fronts(SceneRuns):
         given = opened(1 / 2, 30, 40, sheared(30, 40, 70), half=4)
         for change, words in (
                 ({"rock": {**given["components"]["rock"], "order": "first"}}, ("do not tell the factors along fronts", "second order")),
+                ({"rock": {key: value for key, value in given["components"]["rock"].items() if key != "order"} | {"type": "poromechanics/mpsa"}}, ("do not tell the factors along fronts", "4 cells")),
                 ({"tips": {"type": "fine_fracture/quarter_point"}}, ("in a plane",))):
             answer = self.call("check", self.write(json.dumps({**given, "components": {**given["components"], **change}}), "refused.yaml"))
             self.assertEqual(answer.returncode, 2, answer.stderr)

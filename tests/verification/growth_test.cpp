@@ -1,6 +1,8 @@
 // The two-level model: stress-intensity factors against closed forms (section 5.1 of the paper), growing wings (5.2).
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "components/capabilities/poroelastic_rock.hpp"

@@ -207,6 +207,28 @@ class LawsWithMemory(SceneRuns):
         then = self.pressed(words, f"start.from={first.folder}")
         np.testing.assert_allclose(-then["jump.n[m]"], 5e6 / 200e9 + 10e6 / 50e9, rtol=1e-9)
 
+    def test_extremes_begin_at_the_start(self):
+        """Of a constant pressure times 1 - t/1000 s the largest is that at 0 s, whatever the steps; of 1 + t/1000 s the smallest."""
+        scene = """
+geometry: {box: {x: [0 m, 1 m], y: [0 m, 1 m]}}
+mesh: {size: 1 m}
+components:
+  pore: {type: matrix_flow/tpfa, permeability: "1e-15*m^2*(1 + extreme/(1e12*Pa))", viscosity: 1 mPa*s, storage: 1e-10 1/Pa, initial_pressure: 4 MPa, history: {extreme: {RECALL}}}
+schedule: [{solve: pore}]
+time: {end: 400 s, step: STEP s}
+output: {fields: false, probes: {extreme: {of: pore.extreme, take: mean}}}
+"""
+        for recall in ('largest: "p*(1 - t/(1000 s))"', 'smallest: "p*(1 + t/(1000 s))"'):
+            for step in ("100", "400"):
+                run = self.run_scene(self.write(put(scene, RECALL=recall, STEP=step)))
+                np.testing.assert_allclose(run["extreme"], 4e6, rtol=1e-12)
+
+    def test_another_memory_of_the_same_name_is_refused(self):
+        first = self.pressed(HYSTERETIC, "time.end=300 s")
+        changed = self.call("check", self.write(put(PRESSED, **HYSTERETIC).replace("largest:", "smallest:")), f"start.from={first.folder}")
+        self.assertEqual(changed.returncode, 2, changed.stderr)
+        self.assertIn("its values come from there", changed.stderr)
+
     def test_a_start_that_is_settled(self):
         """Memory begins with the state that has been found, not with the way to it."""
         run = self.pressed({**HYSTERETIC, "LOAD": "(8 - 4*t/(400 s))"}, "start.settle=[rock, contact]")

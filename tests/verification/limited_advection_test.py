@@ -212,6 +212,20 @@ class LimitedAdvection(SpaceRuns):
         for mirror in (False, True):
             self.assertLess(self.largest_difference(one, self.run_scene(self.turned(path, 90, mirror=mirror)), columns), 1e-7)
 
+    def test_a_settled_state_is_that_of_the_scheme(self):
+        """The steady column with decay, away from its end: exp((v - u) x/(2 D)), u = v sqrt(1 + 4 lambda R D/v^2). It rests. Upwind is off by 0.98 %."""
+        v, d = scenes.SPEED, scenes.DIFFUSION
+        by = (v - v * math.sqrt(1 + 4 * scenes.DECAY * scenes.RETARDATION * d / v**2)) / (2 * d)
+        errors = []
+        for cells in (20, 40):
+            fields = self.run_text(limited(scenes.column(cells, 20)) + "start: {settle: [pore, salt]}\noutput: {probes: {c: {of: salt.concentration, take: mean}}}\n")
+            np.testing.assert_allclose(fields["c"], fields["c"][0], rtol=1e-10)
+            rock = fields.fields()
+            x = rock.centres[:, 0]
+            errors.append(relative_error(rock["salt.concentration"][x < 2], np.exp(by * x[x < 2])))
+        self.assertLess(errors[1], 6e-4)
+        self.assertLess(errors[1], 0.5 * errors[0])
+
     def test_a_restart_keeps_the_bits(self):
         for dimension in (2, 3):
             text = limited(scenes.flowing(dimension, **scenes.UNEVEN, spread=scenes.SPREAD))

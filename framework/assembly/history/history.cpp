@@ -71,7 +71,7 @@ void History::require_named(std::uint32_t named, const std::string& parameters) 
 
 void History::show(const StepToRemember& step, const StateAt& state_at) {
   if (is_held_ || step.end == step.start) return;  // the state is still to be found
-  for (Place& at : places_) at.t = step.end;
+  for (Place& at : places_) at.t = step.start;
   OfAll state{};
   const std::span<double> followed(state.data(), followed_->size());
   for (std::size_t k = 0; k < fields_.size(); ++k) {
@@ -90,7 +90,7 @@ void History::show(const StepToRemember& step, const StateAt& state_at) {
 }
 
 void History::begin_step(const StepToRemember& step, const StateAt& state_at) {
-  for (Place& at : places_) at.t = step.end;
+  for (Place& at : places_) at.t = step.start;
   // No time passes while the state at the start is found. Nor does that state depend on how it is found.
   const bool is_at_start = step.end == step.start;
   OfAll state{};
@@ -107,6 +107,7 @@ void History::begin_step(const StepToRemember& step, const StateAt& state_at) {
     if (!is_at_start && !is_held_ && values != fields_[k]->accepted()) fields_[k]->set_accepted(values);
     before.push_back(std::move(values));
   }
+  for (Place& at : places_) at.t = step.end;
   const double time = is_held_ || is_at_start ? 0 : step.dt, length = step.dt;
   if (before == before_ && time == time_ && length == length_) return;
   before_ = std::move(before);
