@@ -62,13 +62,12 @@ class ThermalStress : public Coupler {
     constexpr double noticeable = 1.01;
     const double ratio = rock_.unequal_expansion();
     if (ratio <= noticeable) return;
-    notes.add(
-        name() + " of anisotropic rock",
-        fmt::format("{0} loads anisotropic rock with the same stress in all directions, -3 K expansion (T - T_0): "
-                    "free rock expands {1} as much along one axis as along another, and nowhere by 'expansion' "
-                    "alone (a coefficient for each axis does not exist) read strains with care, or give the rock "
-                    "an isotropic stiffness",
-                    name(), std::isinf(ratio) ? "infinitely" : fmt::format("{:.3g} times", ratio)));
+    notes.add(name() + " of anisotropic rock",
+              fmt::format(
+                  "free rock expands {} as much along one axis as along another under the stress of {} ('expansion' is "
+                  "the coefficient of isotropic rock, and the stress -3 K expansion (T - T_0) is the same in all "
+                  "directions) give the rock an isotropic stiffness, or take its strains with care",
+                  std::isinf(ratio) ? "infinitely" : fmt::format("{:.3g} times", ratio), name()));
   }
   void assemble(Assembly&, const StepTime&) const override {}
   std::vector<double> switch_times() const override { return switch_times_; }
