@@ -1,7 +1,7 @@
 #include "components/poromechanics/fem/held_directions.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -39,19 +39,16 @@ void add(std::vector<Direction>& directions, int side, int axis, const Point& ve
   directions.push_back({side, axis, vector, {by}});
 }
 
-/// As many directions as determine a displacement, each of them with a part across those before.
-std::vector<Direction> independent(const std::vector<Direction>& directions) {
-  std::vector<Direction> chosen;
+/// How many directions determine a displacement: those with a part across the ones before.
+int independent(const std::vector<Direction>& directions) {
   std::vector<Point> across;  // unit
   for (const Direction& direction : directions) {
-    if (chosen.size() == dimension) break;
+    if (across.size() == dimension) break;
     Point rest = direction.vector.normalized();
     for (const Point& before : across) rest -= before.dot(rest) * before;
-    if (rest.norm() <= parallel) continue;
-    chosen.push_back(direction);
-    across.push_back(rest.normalized());
+    if (rest.norm() > parallel) across.push_back(rest.normalized());
   }
-  return chosen;
+  return static_cast<int>(across.size());
 }
 
 /// Orthonormal columns, with `axis` where it has its largest component and the others near to their coordinates.
@@ -73,10 +70,21 @@ std::pair<Tensor, int> axes_with(const Point& axis) {
   return {axes, place};
 }
 
-HeldDirections combined(const std::vector<Direction>& all) {
+/// The normal of the plane of directions: unit.
+Point plane_normal(const std::vector<Direction>& directions) {
+  Point normal = Point::Zero();
+  if constexpr (dimension == 3)
+    for (const Direction& other : directions) {
+      const Point across = directions[0].vector.normalized().cross(other.vector.normalized());
+      if (across.norm() > normal.norm()) normal = across;
+    }
+  return normal.normalized();
+}
+
+/// Where sides that meet contradict each other, their displacements have the least squares of what is left, by measure.
+HeldDirections combined(const std::vector<Direction>& directions) {
   HeldDirections held;
-  const std::vector<Direction> directions = independent(all);
-  const int count = static_cast<int>(directions.size());
+  const int count = independent(directions);
   if (count == 0) return held;
   if (count == 1) {
     const auto [axes, place] = axes_with(directions[0].vector.normalized());
@@ -87,21 +95,25 @@ HeldDirections combined(const std::vector<Direction>& all) {
     return held;
   }
   // The displacements along the held axes, from those along the directions; two in space leave the one across them.
-  Eigen::Matrix<double, Eigen::Dynamic, dimension> vectors(count, dimension);
-  for (int i = 0; i < count; ++i) vectors.row(i) = directions[i].vector.transpose();
-  Eigen::Matrix<double, dimension, Eigen::Dynamic> along(dimension, count);
+  const auto given = static_cast<int>(directions.size());
+  Eigen::MatrixXd vectors(given, dimension);
+  Eigen::VectorXd weights(given);  // so that squares count by measure
+  for (int i = 0; i < given; ++i) weights[i] = 1 / std::sqrt(directions[i].vector.norm());
+  for (int i = 0; i < given; ++i) vectors.row(i) = weights[i] * directions[i].vector.transpose();
   int free = none;
-  if (count == dimension) along = Tensor(vectors).inverse();
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(0.1 * parallel);
+  decomposition.compute(vectors);
+  Eigen::MatrixXd along = decomposition.pseudoInverse() * weights.asDiagonal();
   if constexpr (dimension == 3)
     if (count == 2) {
-      std::tie(held.axes, free) = axes_with(directions[0].vector.cross(directions[1].vector).normalized());
-      const Eigen::Matrix2d products = vectors * vectors.transpose();
-      along = held.axes.transpose() * vectors.transpose() * products.inverse();
+      std::tie(held.axes, free) = axes_with(plane_normal(directions));
+      along = held.axes.transpose() * along;
     }
   for (int k = 0; k < dimension; ++k) {
     if (k == free) continue;
     held.is_held[k] = true;
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < given; ++i)
       for (const HeldBy& by : directions[i].by)
         held.by[k].push_back({by.face, by.axis, along(k, i) * by.share, by.pin});
   }

@@ -95,5 +95,28 @@ TEST(HeldDirections, AtACornerGiveTheDisplacementWithBothComponents) {
   }
 }
 
+// A fixed side of length l beside one of length 1 that is pushed along its normal by g: least squares of what is left,
+// l |u|^2 + (n.u - g)^2, have u = g/(1 + l) n, in each frame and however the side is fixed.
+TEST(HeldDirections, ThatContradictHaveTheLeastSquares) {
+  for (const double turn : {0.0, 0.4, 2.9})
+    for (const bool is_of_face : {false, true}) {
+      const double length = 2, push = 1e-3;
+      Options options;
+      auto& fixed = options.boundary["first"];
+      for (auto& each : is_of_face ? fixed.displacement_of_face : fixed.displacement_along) each = Data(0);
+      options.boundary["second"].displacement_of_face[0] = Data(push);
+      const Mesh mesh = corner(1.5, false, length, turn);
+      const HeldDirections held = held_directions(options, mesh).nodes[node_at_corner(mesh)];
+      Point displacement = Point::Zero(), normal = Point::Zero();
+      for (int k = 0; k < dimension; ++k)
+        for (const HeldBy& by : held.by[k]) {
+          if (mesh.face_side[by.face] != 1) continue;
+          displacement += held.axes.col(k) * by.share * push;
+          normal = mesh.face_normal[by.face];
+        }
+      EXPECT_LT((displacement - push / (1 + length) * normal).norm(), 1e-15) << turn << " " << is_of_face;
+    }
+}
+
 }  // namespace
 }  // namespace sprekk::poromechanics
