@@ -204,8 +204,10 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
   };
   Coefficient coefficient_at(int cell) const {
     Coefficient result{};
-    const std::array state{fluid_.pressure().now()[cell], fluid_.aperture().now()[cell]};
+    const double aperture = fluid_.aperture().now()[cell], least = fluid_.least_aperture();
+    const std::array state{fluid_.pressure().now()[cell], std::max(aperture, least)};
     result.value = coefficient_.at(cell, state, result.by);
+    if (aperture < least) result.by[1] = 0;
     return result;
   }
 

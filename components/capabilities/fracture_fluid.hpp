@@ -23,6 +23,8 @@ class FractureFluid {
   /// determines it.
   virtual Field& aperture() = 0;
   virtual const Vector& initial_aperture() const = 0;
+  /// The aperture below which a fracture is taken to be as wide as that, m: of walls that touch.
+  virtual double least_aperture() const = 0;
 
   /// The permeability normal to the fracture, kappa = 2 K/(mu a^2) (below Eq. 9 of the paper), m/(Pa s), for each wall
   /// at the current aperture, and its derivative by the aperture.

@@ -126,6 +126,13 @@ output: {fields: false}
             ends.append(FIRST + grown[-1])
         self.assertLess(ends[1], ends[0] - 0.02)
 
+    def test_apertures_in_formulas_are_not_below_their_floor(self):
+        """In cells that have just grown, and where walls touch: a/max(a, floor) is 1 in all of them."""
+        constant, formula = (self.run_scene(TUTORIAL, f"couplers.3.leak_off_coefficient={LEAK_OFF!r}*m/s^0.5{words}") for words in ("", "*a/max(a, 1e-7*m)"))
+        self.assertGreater(constant["tips.main_last.length[m]"][-1], 0.5)
+        for column in ("carter_leak_off.leaked[m^2]", "tips.main_last.length[m]"):
+            np.testing.assert_allclose(formula[column], constant[column], rtol=1e-9)
+
     @on_two_processes
     def test_on_two_processes(self):
         settings = ("time.step=8 s", "time.end=40 s", "components.tips.toughness=100 MPa*m^0.5")

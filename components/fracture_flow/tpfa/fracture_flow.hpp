@@ -100,6 +100,7 @@ class FractureFlow : public Component,
   Field& pressure() override { return pressure_; }
   Field& aperture() override { return aperture_; }
   const Vector& initial_aperture() const override { return initial_aperture_; }
+  double least_aperture() const override;
   NormalPermeability normal_permeability() const override;
   void change_viscosity(const Vector& viscosity) override;
   double filled_part(int cell) const override;

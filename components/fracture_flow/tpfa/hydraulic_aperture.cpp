@@ -16,11 +16,15 @@ void FractureFlow::prepare_formula(FieldStore& fields) {
     history_->add_fields(fields, mesh_, Location::fracture_cell, name(), pressure_.name());
   }
   if (!data) return;
-  lowest_ = std::max(options_.aperture_floor, options_.law.residual.value_or(0));
+  lowest_ = least_aperture();
   for (std::size_t k = of_pressure; k < conduction_variable_count; ++k)
     if (formula_->names(k)) named_.push_back(k);
   state_.offer("a", {&aperture_});
   state_.offer("p", {&pressure_});
+}
+
+double FractureFlow::least_aperture() const {
+  return std::max(options_.aperture_floor, options_.law.residual.value_or(0));
 }
 
 void FractureFlow::require_state() const {
