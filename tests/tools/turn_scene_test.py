@@ -225,6 +225,19 @@ output: {probes: {u: {of: rock.displacement, at: [1.7 m, 0.6 m]}}}
             for name in ("u.x[m]", "u.y[m]"):
                 self.assertLess(difference(straight, turned, name), 1e-10)
 
+    def test_pinned_points_turn_with_the_box(self):
+        def turned(held, angle, mirror=False):
+            return turn_scene.of_pin(held, "pinned.q", turn_scene.Motion(angle, (0, 0), (1, 1), mirror))
+
+        self.assertEqual(turned({"x": "1 mm"}, 90), {"displacement_x": None, "displacement_y": "1.0 mm"})
+        self.assertEqual(turned({"x": "1 mm"}, 0, mirror=True), {"displacement_x": "-1.0 mm"})
+        self.assertEqual(turned({"y": "1 mm"}, 180), {"displacement_y": "-1.0 mm"})
+        found = [float(value.split()[0]) for value in turned({"x": "1 mm", "y": "2 mm"}, 30).values()]
+        radians = np.deg2rad(30)
+        self.assertLess(np.abs(np.array(found) - [np.cos(radians) - 2 * np.sin(radians), np.sin(radians) + 2 * np.cos(radians)]).max(), 1e-12)
+        with self.assertRaisesRegex(turn_scene.CannotTurn, "turned off the axes"):
+            turned({"x": "1 mm"}, 30)
+
     def test_what_cannot_be_turned_is_refused(self):
         (self.folder / "survey.csv").write_text("x,p[MPa]\n0,1\n2,2\n", encoding="utf-8")
         (self.folder / "pull.csv").write_text("t[h],u[mm]\n0,0\n1,2\n", encoding="utf-8")
