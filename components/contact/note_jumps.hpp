@@ -1,4 +1,4 @@
-// Notes on jumps that are large, or of springs between the walls, and on fractures that have opened as a whole.
+// Notes on large jumps, on jumps of springs between the walls, and on fractures that are open along their whole length.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What formulas of properties of rock remember.
+// The memory of formulas for properties of rock.
 #pragma once
 
 #include <memory>

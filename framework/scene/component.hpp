@@ -22,8 +22,8 @@ struct ComponentContext {
   Origin origin;      ///< of the component in the scene
 };
 
-/// A part that owns unknown fields and the balance laws that determine them. Its capabilities are abstract classes that
-/// it also derives from (components/capabilities): they say what couplers can ask of it.
+/// A part that owns unknown fields and the balance laws that determine them. It also derives from abstract classes, its
+/// capabilities (components/capabilities), by which couplers use it.
 class Component : public Part {
  public:
   explicit Component(std::string name) : name_(std::move(name)) {}
