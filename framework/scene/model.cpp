@@ -279,6 +279,14 @@ Notes Model::input_notes() const {
   notes.of_input(scene_.time.start);
   note_unusual_values(properties_of(scene_, {mesh_, fields_, components_}), notes);
   for (const Part* part : parts_) part->note_input(notes);
+  for (const auto& component : components_)
+    if (const auto* growing = dynamic_cast<const Growing*>(component.get());
+        growing && std::ranges::none_of(growing_, [&](const GrowStep* step) { return &step->component() == growing; }))
+      notes.add(component->name() + " in no step",
+                "no step looks at the fractures of " + component->name() +
+                    ": it has no answer (a component whose fractures can grow is evaluated by a 'grow' step) add "
+                    "'- grow: " +
+                    component->name() + "' to 'schedule:'");
   note_gaps(*schedule_, fields_, scene_.time, notes);
   for (const CouplerType& type : Registry::instance().couplers()) {
     if (!type.note_absence) continue;

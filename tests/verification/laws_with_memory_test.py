@@ -213,14 +213,13 @@ class LawsWithMemory(SceneRuns):
         np.testing.assert_allclose(-run["jump.n[m]"], 1e6 * (8 - run.times / 100) / 200e9 + 8e6 / 50e9, rtol=1e-9)
 
     def test_memory_goes_on_where_a_mesh_grows(self):
-        """The slip of walls is their path until they part, on one mesh and the next, and then grows as it does; new cells begin with none."""
+        """The slip of walls that touch is their path, on one mesh and the next, also that while the state is found anew; new cells begin with none."""
         run = self.run_scene(ROOT / "configs/paper/wing_cracks.yaml", "time.end=5h", 'components.contact.history={slid: {sum: "1", over: slip}}', "components.contact.friction=0.5 + 0*slid/m + 0*path/m",
                              "output.probes.slid={of: contact.slid, at: [1 m, 1 m]}", "output.probes.path={of: contact.path, at: [1 m, 1 m]}", "output.probes.new={of: contact.slid, take: smallest}")
-        self.assertGreater(run["tips.main_last.length[m]"][-1], 1e-3)
-        opened = run["path[m]"] - run["slid[m]"]
-        np.testing.assert_allclose(opened[:7], 0, atol=1e-9 * run["path[m]"][0])
-        self.assertGreater(np.diff(opened).min(), -1e-9 * run["path[m]"][0])
-        self.assertTrue((np.diff(run["slid[m]"]) > 0).all())
+        self.assertGreater(run["tips.main_last.length[m]"][-1], 1e-2)
+        self.assertLess(run["traction.n[Pa]"].max(), 0)
+        np.testing.assert_allclose(run["slid[m]"], run["path[m]"], rtol=1e-9)
+        np.testing.assert_allclose(run["slid[m]"], -run["slip.t[m]"], rtol=1e-9)
         self.assertLess(run["new[m]"][-1], 0.5 * run["slid[m]"][-1])
 
     def test_in_space(self):

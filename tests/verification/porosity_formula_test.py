@@ -240,10 +240,11 @@ schedule: [{solve: [pore, heat]}]""").replace("time: {end: 30000 s, step: 6000 s
             self.assertGreater(math.log2(abs(first - second) / abs(second - third)), 1.8, msg=quantity)
 
     def test_growth_loses_no_fluid(self):
-        """Across changes of the mesh, to round-off; with Biot's terms and a little more the wings are 33 mm long, as with these terms alone."""
+        """Across changes of the mesh, to round-off; with a little more than Biot's terms the wings are as long as with these terms, within 1 %."""
         formula = self.run_scene(WINGS, "time.end=9h", "materials.porosity=0.01 + 0.8*eps_v + p/(28.13 GPa) + 2*eps_v^2")
         self.assertLess(np.abs(formula["fluid_balance_error[m^2]"]).max(), 1e-12 * np.abs(formula["fluid_injected[m^2]"]).max())
-        self.assertLess(abs(self.last(formula, "tips.main_last.length") / 0.0334 - 1), 1e-2)
+        with_terms = self.run_scene(WINGS, "time.end=9h")
+        self.assertLess(abs(self.last(formula, "tips.main_last.length") / self.last(with_terms, "tips.main_last.length") - 1), 1e-2)
 
     def test_a_start_that_is_settled(self):
         """Strains are counted from there, and so is what the pores hold: where nothing else happens, nothing moves."""

@@ -69,9 +69,9 @@ class TipAtBorder(SceneRuns):
         """Nothing has stopped, and K_eq = K_IC while it grows from the onset on."""
         self.assertFalse([note for note in run.record["notes"] if "for good" in note["text"]])
         self.assertEqual(max(row[TIP + "stopped"] for row in run.rows), 0)
-        after_onset = [row for row in run.rows if row[TIP + "length"] > 6e-3]
-        self.assertGreater(len(after_onset), 9)
-        # The first increments are found with the state held, to `arrest_tolerance`.
+        # Shorter kinks than a quarter of an edge are followed by the fine level alone, with the state held, to `arrest_tolerance`.
+        after_onset = [row for row in run.rows if row[TIP + "length"] > 0.25 * 0.0766]
+        self.assertGreater(len(after_onset), 7)
         self.assertLess(max(row[TIP + "K_eq"] for row in run.rows), 1.01 * TOUGHNESS)
         for row in after_onset:
             self.assertEqual(row[TIP + "grows"], 1)
@@ -94,10 +94,10 @@ class TipAtBorder(SceneRuns):
         self.assertLess(angles[-1], 35)
         self.assertEqual(angles[-5:], sorted(angles[-5:], reverse=True))
 
-    def expect_same(self, other, tolerance, hours=(1, 2, 3, 4)):
+    def expect_same(self, other, tolerance, hours=(1, 2, 3, 4), whole=None):
         """At whole hours: how many steps the search takes next to the border depends on the last digits."""
         for hour in hours:
-            one, two = (next(row for row in run.rows if abs(row["time"] - 3600 * hour) < 1) for run in (self.whole, other))
+            one, two = (next(row for row in run.rows if abs(row["time"] - 3600 * hour) < 1) for run in (whole or self.whole, other))
             self.assertAlmostEqual(two[TIP + "length"] / one[TIP + "length"], 1, delta=tolerance, msg=hour)
 
     def test_disturbed(self):
@@ -105,11 +105,12 @@ class TipAtBorder(SceneRuns):
 
     def test_turned_and_mirrored(self):
         # The square of the fine level does not turn with the scene: its load has the error of the coarse level, 5 cells on the fracture. In
-        # the end the border says how far the tip comes.
+        # the end the border says how far the tip comes. Steps of an hour alone move that by 0.7 %.
+        whole = self.run_scene(self.scene, "time.step=0.5 h")
         for mirror in (False, True):
-            run = self.run_scene(self.turned(self.scene, 37, mirror=mirror))
+            run = self.run_scene(self.turned(self.scene, 37, mirror=mirror), "time.step=0.5 h")
             self.expect_growth(run)
-            self.expect_same(run, 0.005, hours=(4,))
+            self.expect_same(run, 0.003, hours=(4,), whole=whole)
 
     @on_two_processes
     def test_on_two_processes(self):

@@ -34,6 +34,9 @@ void Tips::check_size(const Tip& tip) const {
 /// A path grows in the square before the coarse level takes it over. It ends before the sides of the rock.
 void Tips::check_increment() const {
   const double increment = options_.growth.increment, half = 0.5 * options_.size;
+  if (options_.toughness && increment == 0)
+    throw InputError(origin_, "'growth' of " + name() + " is missing", "tips with a toughness grow by increments",
+                     "add 'growth: {increment: …}', half of mesh.fracture_size for example, or leave out 'toughness'");
   const auto is_near_the_first = [&](const Point& x) {
     return (x - mesh_.nodes[0]).cwiseAbs().maxCoeff() <= options_.size;
   };

@@ -107,7 +107,7 @@ void History::begin_step(const StepToRemember& step, const StateAt& state_at) {
     if (!is_at_start && !is_held_ && values != fields_[k]->accepted()) fields_[k]->set_accepted(values);
     before.push_back(std::move(values));
   }
-  const double time = is_held_ || is_at_start ? 0 : step.dt, length = is_held_ ? 0 : step.dt;
+  const double time = is_held_ || is_at_start ? 0 : step.dt, length = step.dt;
   if (before == before_ && time == time_ && length == length_) return;
   before_ = std::move(before);
   time_ = time;
@@ -122,11 +122,11 @@ void History::hold(bool is_held) {
 }
 
 void History::remember(const StateAt& state_at) {
-  if (is_held_) return;
   SPREKK_EXPECT(before_.size() == fields_.size(), before_.size(), fields_.size());
   OfAll state{};
   const std::span<double> followed(state.data(), followed_->size());
   for (std::size_t k = 0; k < fields_.size(); ++k) {
+    if (is_held_ && remembered_[k].rate < 0) continue;
     Vector values(before_[k].size());
     for (int i = 0; i < values.size(); ++i) {
       values[i] = 0;

@@ -53,7 +53,7 @@ class History {
   void begin_step(const StepToRemember& step, const StateAt& state_at);
   /// Keeps what the state at the end of the step makes of the values.
   void remember(const StateAt& state_at);
-  /// While the mesh changes, nothing is remembered.
+  /// While the state is found again on another mesh no time passes and extremes stay; what moves is summed.
   void hold(bool is_held);
   /// Changes when values do that are remembered from before the step.
   std::uint64_t version() const { return version_; }
