@@ -207,7 +207,7 @@ class Biot : public Coupler,
     notes.add(
         "coupled one way",
         fmt::format("the rock of the coupler {} moves without storing fluid ('one_way: true'): the balance of fluid "
-                    "is that of pores whose volume stays, and misses alpha times the change of the rock's volume",
+                    "assumes a constant volume of pores, and misses alpha times the change of the rock's volume",
                     name()));
   }
 
@@ -232,7 +232,7 @@ class Biot : public Coupler,
     if (decoupled_ || load == 0 || pressure <= much * std::max(load, given)) return;
     notes.add(fluid_.pressure().name() + " beyond the loads",
               fmt::format("{} reaches {:.3g} Pa at {} (the largest stress that is given is {:.3g} Pa, and the largest "
-                          "pressure {:.3g} Pa: rock opens before) look at permeability and rates there",
+                          "pressure {:.3g} Pa: rock would fracture before) check permeability and rates there",
                           fluid_.pressure().name(), pressure, to_text(mesh_.cell_center[largest]), load, given),
               pressure);
   }
