@@ -194,7 +194,7 @@ class FrictionalContact : public Component,
   OfWalls friction_by_law(int cell, const FrictionLaw& law, const WallState& state) const;
   /// The strength of the walls in this state, with derivatives, by their own laws.
   Strength strength_by_laws(int cell, const WallState& state) const;
-  /// The same with the factor of friction that another component gives.
+  /// The same, with the factor of friction from another component.
   Strength strength(int cell, const WallState& state) const;
   /// The state of the walls with this path (m) at the end of the step, this slip in the step and this pressure (Pa).
   WallState wall_state(int cell, double path, const SlipOfStep& step, double pressure) const;
@@ -223,7 +223,7 @@ class FrictionalContact : public Component,
   /// for the piece of |[u]_t|.
   int piece(int cell) const;
 
-  /// What Newton's method has tried in this step for a cell that slides back towards zero slip.
+  /// The last update by Newton's method in this step of a cell that slides back towards zero slip.
   struct BackSlip {
     enum class Piece { none, before_kink, beyond_kink } taken = Piece::none;  ///< of |[u]_t|, by the last update
     TangentialVector direction = TangentialVector::Zero();                    ///< of the slip at that update

@@ -10,7 +10,7 @@
 
 namespace sprekk::contact {
 
-/// What the contact has at the end of a step.
+/// The state of the contact at the end of a step.
 struct JumpsOfStep {
   const Field& traction;             ///< Pa, (normal, tangential) of each fracture cell
   const Field& jump;                 ///< m, the same

@@ -9,7 +9,7 @@
 
 namespace sprekk::contact {
 
-/// The gap of a cell, m, what its walls hold, and the traction that the return map takes back to the cone, Pa.
+/// The gap of a cell, m, the strength of its walls, Pa, and the trial traction for the return map, Pa.
 struct Trial : TrialTraction<dimension - 1> {
   double gap;
   double gap_by_traction;           ///< d gap / d f_n, m/Pa

@@ -29,7 +29,7 @@ class Buoyancy {
   /// Evaluates the density at sides whose pressures are given (one a face, Pa).
   void begin_step(const std::vector<FlowCondition>& conditions, const Vector& boundary_pressure);
 
-  /// What the excess d adds to a quantity on faces: cells · d + of_boundaries.
+  /// The contribution of the excess d to a quantity on faces: cells · d + of_boundaries.
   struct Rows {
     SparseMatrix cells;         ///< faces × cells
     SparseMatrix boundaries;    ///< faces × faces, applied to d at prescribed pressures

@@ -9,7 +9,7 @@
 
 namespace sprekk::matrix_flow {
 
-/// What FluxOperators are applied to.
+/// The vectors to which FluxOperators are applied.
 struct FluxState {
   Vector cells;     ///< Pa, one a cell: pressures less the weight of fluid
   Vector boundary;  ///< one a face: prescribed pressures and fluxes, those through walls among them

@@ -259,7 +259,7 @@ class MatrixFlow : public Component,
   void find_conditions();
   /// Updates the matrices of balances and walls after the operators have changed.
   void use_operators();
-  /// What borders that fluid crosses add to operators and conditions.
+  /// Adds the terms of borders that fluid crosses to operators and conditions.
   void use_borders();
   void make_border_traces();
   void apply_boundary_at_borders();

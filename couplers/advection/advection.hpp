@@ -46,7 +46,7 @@ class Advection : public Coupler,
   /// Throws InputError without a flow that carries something, and for wells that the coupler leaves out.
   Advection(const CouplerContext& context, const Carried& carried, const AdvectionOptions& options,
             MatrixCarried* in_rock, FractureCarried* in_fractures);
-  /// What is carried through the walls in a step is the same for both sides.
+  /// Both sides of a wall count the same transport through it in a step.
   std::vector<Dependence> dependences() const override;
   bool allows_stages() const override { return true; }
   std::string need_of_one_clock() const override {

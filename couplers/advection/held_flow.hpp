@@ -48,7 +48,7 @@ class HeldFlow {
   /// Part::begin_step of all parts.
   Vector fluxes_in_rock(const IsSolved& is_solved, const StepTime& step) const;
 
-  /// The same as the flow was last solved; nullptr where it was not on this mesh.
+  /// The same at the last solution of the flow; nullptr if there is none on this mesh.
   const Vector* last_fluxes_in_rock() const { return is_taken_ ? &flux_->now() : nullptr; }
 
   /// On another mesh fluxes are those of the pressures that have been found there, until the flow is solved again.

@@ -13,8 +13,8 @@
 
 namespace sprekk {
 
-/// The section `crossings` of a component that conducts along fractures: entries by name, each of which says what fills
-/// the crossings of some fractures.
+/// The section `crossings` of a component that conducts along fractures: entries by name, each with the fill of the
+/// crossings of some fractures.
 class Crossings {
  public:
   /// Adds the section to a spec. `key`: the component's name for the conductivity of the fill; `about`: its unit and a
@@ -22,7 +22,7 @@ class Crossings {
   void declare(Spec& spec, const std::string& key, const About& about);
   /// Throws InputError for a name that no fracture has, and for a `through` that is not among `between`.
   void check_names(const Mesh& mesh) const;
-  /// What fills each junction of the mesh. Throws InputError where two entries apply to one junction.
+  /// The fill of each junction of the mesh. Throws InputError where two entries apply to one junction.
   std::vector<CrossingFill> fills(const Mesh& mesh) const;
   /// Notes entries without a crossing; `owner`: the name of the component.
   void note_input(const Mesh& mesh, const std::string& owner, Notes& notes) const;

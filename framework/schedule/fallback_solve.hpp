@@ -1,4 +1,4 @@
-// What an iteration does when its passes fail: it solves for all of its unknowns together.
+// The fallback of an iteration whose passes fail: it solves for all of its unknowns together.
 #pragma once
 
 #include <memory>

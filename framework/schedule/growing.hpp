@@ -56,7 +56,7 @@ struct PendingPath {
   std::vector<Point> points;  ///< m, from the end of the fracture in the mesh on
 };
 
-/// What a component with fractures that can grow offers to the schedule: the load of its tips, and growth.
+/// The interface of a component with fractures that can grow: the load of its tips, and growth.
 class Growing {
  public:
   static constexpr const char* promise = "has fractures that can grow";

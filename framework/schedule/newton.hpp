@@ -67,7 +67,7 @@ class Newton {
   /// residual of that field. `responses`: Schur complements of unknowns outside of the call.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization = {}, const Responses& responses = {});
 
-  /// What assembly and linear solver have done since the start.
+  /// Counts of assemblies and of the linear solver since the start.
   LinearCounts counts() const;
   /// Makes a call iterate at least once, even if the residuals are small from the start: in an iteration of several
   /// solves a residual may be small against its own terms but large against a balance of another solve.

@@ -10,7 +10,7 @@
 
 namespace sprekk {
 
-/// How the residuals of an assembly compare with their terms; all figures are relative unless said otherwise.
+/// The residuals of an assembly, compared with their terms; all figures are relative unless said otherwise.
 struct ResidualCheck {
   bool finite = true;
   std::string without_value;   ///< if a formula has no value: its message; the residual is not finite
@@ -47,8 +47,8 @@ constexpr double looser_for_balances = 100;
 /// balances of each field is checked like an equation, too. If one row has the sum of several fields, the sums of
 /// single fields may be off by the round-off of exchanges in other rows; then only the total of all fields is checked.
 ///
-/// What rows exchange may be any multiple of what they store, and a residual that is small against the exchange may be
-/// as large as all of the storage. So the balances of a conserved quantity are also compared with their throughput
+/// Rows may exchange any multiple of what they store, so a residual that is small against the exchange may be as large
+/// as all of the storage. So the balances of a conserved quantity are also compared with their throughput
 /// (BalanceRows): neither the sum of all absolute residuals, nor their sum without exchanges, which has more digits,
 /// may exceed 100 × tolerance times the throughput, apart from round-off. Balances that are replaced by fixed values
 /// are left out, since an unknown amount enters there.

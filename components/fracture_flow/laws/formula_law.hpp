@@ -8,7 +8,7 @@
 
 namespace sprekk::fracture_flow {
 
-/// What a formula of the transmissivity may name; the aperture is the first.
+/// The variables that a formula of the transmissivity may name; the aperture is the first.
 const StateVariables& conduction_variables();
 /// Their places in ConductionState.
 enum ConductionVariable : std::size_t {

@@ -1,4 +1,4 @@
-// How a fracture conducts: the interface of the laws for the hydraulic aperture.
+// The interface of the laws for the hydraulic aperture of a fracture.
 #pragma once
 
 namespace sprekk::fracture_flow {

@@ -230,8 +230,8 @@ class FractureFlow : public Component,
   double varying_weight(const Link& link) const;
   void assemble_density(Assembly& assembly, const FluxRows& rows) const;
   bool has_inertia() const { return !options_.law.inertia.is_zero(); }
-  /// How fast fluid flows in a cell, m^2/s: the flux per width, with its derivatives by fluxes. In a plane that at one
-  /// of its ends, in space that of the whole cell.
+  /// The flux per width in a cell, m^2/s, with its derivatives by fluxes: in a plane that at one of its ends, in space
+  /// that of the whole cell.
   struct Speed {
     double value;
     std::vector<std::pair<int, double>> by_flux;

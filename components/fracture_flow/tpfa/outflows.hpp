@@ -1,4 +1,4 @@
-// Which fluxes leave a fracture cell at one of its ridges.
+// The fluxes out of a fracture cell at one of its ridges.
 #pragma once
 
 #include <utility>

@@ -41,10 +41,11 @@ class CellRays {
   CellRays(const Mesh& mesh, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions,
            int cell);
 
-  /// The vector as the sum of two rays, or nothing where there are no such rays. Of all pairs it takes the one of least
-  /// total length, whose directions are the nearest to the vector on both sides.
+  /// The vector as the sum of two rays, or nothing where there are no such rays. Of all pairs it takes the one with the
+  /// least sum of weighted lengths, in which distant points count more: as a rule the rays next to the vector on both
+  /// sides.
   std::optional<RaySum> sum(const Point& vector) const;
-  /// The same without the rays against the conormal of `face`.
+  /// The same sum without rays against the conormal of `face`.
   std::optional<RaySum> sum_without_return(const Point& vector, int face) const;
 
  private:

@@ -18,12 +18,12 @@ namespace sprekk::matrix_flow {
 FluxOperators discretize_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
                              const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 
-/// The same with these shares of mass_for_short_steps, one a cell.
+/// As discretize_rt0, with these shares of mass_for_short_steps, one a cell.
 FluxOperators discretize_rt0_for_short_steps(const Mesh& mesh, const std::vector<Tensor>& mobility,
                                              const std::vector<FlowCondition>& conditions,
                                              const std::vector<double>& shares);
 
-/// The same with lumped_flux_mass, and linear pressures around tips.
+/// As discretize_rt0, with lumped_flux_mass, and linear pressures around tips.
 FluxOperators discretize_lumped_rt0(const Mesh& mesh, const std::vector<Tensor>& mobility,
                                     const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 

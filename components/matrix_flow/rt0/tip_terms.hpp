@@ -10,8 +10,8 @@
 
 namespace sprekk::matrix_flow {
 
-/// What the flow around a tip adds to the equations of a cell: M F = p − h + missing · amounts, with the amounts of its
-/// modes from the pressures around the tip (TipFlow::share).
+/// The term of the flow around a tip in the equations of a cell: M F = p − h + missing · amounts. The amounts of the
+/// modes follow from the pressures around the tip (TipFlow::share).
 struct TipTerm {
   const TipFlow* flow = nullptr;
   Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most_faces, 2> missing;  ///< Pa for amounts of 1 Pa/m^0.5, one row a face

@@ -1,4 +1,4 @@
-// How much each pass of an iteration changes, and whether the passes converge.
+// The changes of fields by each pass of an iteration, and whether the passes converge.
 #pragma once
 
 #include <cstddef>
