@@ -164,8 +164,8 @@ class Biot : public Coupler,
     stored_.set(stored_.now() - rest);
   }
 
-  /// A change of the mesh must not change the fluid in the pores: the volume that has been counted becomes the volume
-  /// of the same state on the new mesh, without what was not counted before. The difference of both totals is spread
+  /// A change of the mesh must not change the fluid in the pores: the counted volume becomes the volume of the same
+  /// state on the new mesh, less the part that had not been counted before. The difference of both totals is spread
   /// evenly over the new cells, so that the total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
     if (!stores_volume() || change.is_at_start) return;

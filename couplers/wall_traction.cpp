@@ -139,10 +139,9 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     if (loaded_with_ != alpha_.version()) load_with_fluid();
   }
 
-  /// Notes suction, a pressure below zero. It pulls the walls together whatever the reference of pressures is: the wall
-  /// traction contains the pressure itself. Viscous fluid that fills a fracture up to its tip has no lowest pressure
-  /// there (Spence and Sharp, Proc. R. Soc. A 400 (1985) 289), so the smaller the cell at a tip is, the lower is its
-  /// pressure.
+  /// Notes suction, a pressure below zero. It pulls the walls together, since the wall traction contains the pressure
+  /// itself and not its change. Viscous fluid that fills a fracture up to its tip has no lowest pressure there (Spence
+  /// and Sharp, Proc. R. Soc. A 400 (1985) 289), so the smaller the cell at a tip is, the lower is its pressure.
   void note_step(Notes& notes, const StepTime&) const override {
     if (contacts_.empty()) note_overlaps(notes);
     if (!fluid_) return;

@@ -80,8 +80,8 @@ void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const J
                             fracture.name, jump, jump / length,
                             dimension == 2 ? "length" : "size, the root of its area,", length, step.large_jump),
                 jump);
-    // No note where cells were open from the start, nor where friction has held nothing: a fracture that fluid opens is
-    // meant to. Cells that have grown start closed.
+    // No note if cells were open from the start, or if there was no friction: then the fluid is meant to open the
+    // fracture. Grown cells start closed.
     if (all_open && pressed > 0 && sheared > noticeable * pressed)
       notes.add(name + " all open: " + fracture.name,
                 fmt::format("all {} cells of fracture '{}' have opened (the fluid carries the whole normal stress, and "
