@@ -27,9 +27,9 @@ struct ApertureOptions {
   }
 };
 
-/// Determines the aperture. Where the flow is solved while the walls wait, the aperture would stay whatever the
-/// pressure is, and fluid that cannot leave an open fracture would get a pressure of any size: with the stabilization
-/// fixed_stress the aperture follows the pressure as the walls do.
+/// Determines the aperture. If the flow is solved while the walls wait, the aperture does not depend on the pressure,
+/// and the pressure of fluid trapped in an open fracture is unbounded. With the stabilization fixed_stress the aperture
+/// responds to the pressure as the walls do.
 class Aperture : public Coupler, public FollowsMesh, public Stabilizes, public FollowsWaiting, public CountsAmounts {
  public:
   Aperture(const CouplerContext& context, const ApertureOptions&)
@@ -85,8 +85,8 @@ class Aperture : public Coupler, public FollowsMesh, public Stabilizes, public F
     fluid_.aperture().set_both(fluid_.initial_aperture() + normal_.entries() * contacts_.jump());
   }
 
-  /// Cells in the place of a replaced one share its opening as the contact has shared its jump, not evenly: otherwise
-  /// fluid would have to flow between them at once.
+  /// Cells that replace an old one share its opening as the contact has shared its jump. With equal shares fluid would
+  /// have to flow between them at once.
   void carry_over(const Part& part, const MeshChange& change) override {
     const Vector old_jump = dynamic_cast<const Aperture&>(part).contacts_.accepted_jump();
     const Vector jump = contacts_.accepted_jump();

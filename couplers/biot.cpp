@@ -164,8 +164,8 @@ class Biot : public Coupler,
     stored_.set(stored_.now() - rest);
   }
 
-  /// A change of the mesh must not change the fluid in the pores: the volume that has been counted becomes the volume
-  /// of the same state on the new mesh, without what was not counted before. The difference of both totals is spread
+  /// A change of the mesh must not change the fluid in the pores: the counted volume becomes the volume of the same
+  /// state on the new mesh, less the part that had not been counted before. The difference of both totals is spread
   /// evenly over the new cells, so that the total of the fluid stays to the last digit.
   void settled(const MeshChange& change) override {
     if (!stores_volume() || change.is_at_start) return;
@@ -207,7 +207,7 @@ class Biot : public Coupler,
     notes.add(
         "coupled one way",
         fmt::format("the rock of the coupler {} moves without storing fluid ('one_way: true'): the balance of fluid "
-                    "is that of pores whose volume stays, and misses alpha times the change of the rock's volume",
+                    "assumes a constant volume of pores, and misses alpha times the change of the rock's volume",
                     name()));
   }
 
@@ -232,7 +232,7 @@ class Biot : public Coupler,
     if (decoupled_ || load == 0 || pressure <= much * std::max(load, given)) return;
     notes.add(fluid_.pressure().name() + " beyond the loads",
               fmt::format("{} reaches {:.3g} Pa at {} (the largest stress that is given is {:.3g} Pa, and the largest "
-                          "pressure {:.3g} Pa: rock opens before) look at permeability and rates there",
+                          "pressure {:.3g} Pa: rock would fracture before) check permeability and rates there",
                           fluid_.pressure().name(), pressure, to_text(mesh_.cell_center[largest]), load, given),
               pressure);
   }

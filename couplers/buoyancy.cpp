@@ -257,12 +257,13 @@ class Buoyancy : public Coupler {
     }
     const double varies = 2 * (highest - lowest) / (highest + lowest);
     if (varies > most_that_varies)
-      notes.add(name() + ": a density that varies by more than its approximation bears",
-                fmt::format("the density of the fluid varies by {:.2g} %, from {:.5g} to {:.5g} kg/m^3 (it counts in "
-                            "the weight alone: volumes of fluid, and the heat that they carry, have errors of up to "
-                            "this size) take differences of pressure and temperature that are smaller, or accept them",
-                            100 * varies, lowest, highest),
-                varies);
+      notes.add(
+          name() + ": a density that varies by more than its approximation bears",
+          fmt::format("the density of the fluid varies by {:.2g} %, from {:.5g} to {:.5g} kg/m^3 (only its weight is "
+                      "computed with this density: volumes of fluid, and the heat that they carry, have errors of up "
+                      "to this size) take differences of pressure and temperature that are smaller, or accept them",
+                      100 * varies, lowest, highest),
+          varies);
   }
 
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {

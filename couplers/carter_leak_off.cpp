@@ -68,10 +68,10 @@ struct CarterOptions {
   }
 };
 
-/// Takes from the balance of each fracture cell what has left through both of its walls in the step, exactly for the
-/// mean time of exposure of the cell. The part of a cell that becomes wet in the step (a tip has passed, or fluid has
-/// filled it) does so at a constant rate over the step. A coefficient that is a formula is that of the state at the end
-/// of the step, for all walls that are exposed then.
+/// Subtracts the leak-off through both walls in the step from the balance of each fracture cell, exactly for the mean
+/// time of exposure of the cell. The part of a cell that becomes wet in the step (a tip has passed, or fluid has filled
+/// it) does so at a constant rate over the step. A coefficient that is a formula is that of the state at the end of the
+/// step, for all walls that are exposed then.
 class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, public KeepsTotals {
  public:
   CarterLeakOff(const CouplerContext& context, const CarterOptions& options)
@@ -99,7 +99,7 @@ class CarterLeakOff : public Coupler, public FollowsMesh, public CountsAmounts, 
   void count_amounts_from_here(const SettledFields&) override {
     if (!continues_) begin();
   }
-  /// If ages are not those that this run would give at the start, walls are those of another run, and keep their ages.
+  /// If ages differ from those that this run would give at the start, they come from another run, and are kept.
   void begin_totals() override {
     continues_ = continues_ || wet_age_.accepted() != age_at_start_ * wet_.accepted();
     leaked_.set_both(Vector::Zero(leaked_.size()));

@@ -9,8 +9,8 @@
 
 namespace sprekk::couplers {
 
-/// One contact for all fractures, or several beside each other, each on fractures of its own, or none. Where a contact
-/// is not, its traction and jump are zero, so their sums are those of all fractures.
+/// One contact for all fractures, or several, each on its own fractures, or none. On other fractures the traction and
+/// jump of a contact are zero, so the sums over all contacts are the tractions and jumps of all fractures.
 class Contacts {
  public:
   /// Throws InputError where a fracture has two of the contacts between which the coupler stands.

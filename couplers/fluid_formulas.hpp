@@ -10,7 +10,7 @@
 
 namespace sprekk::couplers {
 
-/// What formulas of a fluid may name.
+/// The variables that formulas of a fluid may name.
 inline const StateVariables& fluid_variables() {
   static const StateVariables variables = {{"T", "K", "temperature"}, {"p", "Pa", "pressure"}};
   return variables;

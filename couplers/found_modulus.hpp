@@ -8,17 +8,17 @@
 
 namespace sprekk::couplers {
 
-/// Rock answers a change dp of the pressure by a change of volume alpha dV = b V dp with b between alpha^2/(lambda + 2
-/// G) (irrotational displacements) and alpha^2/(lambda + G) (a pressure that is the same everywhere). Two solves of the
-/// rock in one step show where b lies between these bounds: L is the value for which alpha dV and L V dp do the same
-/// work on dp (a Rayleigh quotient), given as a share of the way from the first bound to the second. Any L between the
-/// bounds converges, so the choice changes the number of passes alone.
+/// Rock responds to a change dp of the pressure by a change of volume alpha dV = b V dp, with b between alpha^2/(lambda
+/// + 2 G) (irrotational displacements) and alpha^2/(lambda + G) (a pressure that is the same everywhere). Two solves of
+/// the rock in one step show where b lies between these bounds: L is the value for which alpha dV and L V dp do the
+/// same work on dp (a Rayleigh quotient), given as a share of the way from the first bound to the second. Passes
+/// converge with any L between the bounds, so the choice changes only their number.
 class FoundModulus {
  public:
   /// L as a share of the way from the first bound to the second; one half before anything is known.
   double share() const { return share_; }
-  /// To be called when a step, or a stage of one, begins: the first change of the pressure in it is due to loads, and
-  /// does not count.
+  /// To be called when a step, or a stage of one, begins: the first change of the pressure in it comes from loads, and
+  /// is ignored.
   void begin_step() { passes_ = 0; }
   /// The rock has been solved for with this pressure (Pa); `stored`: alpha times the volume of each cell (m^2); `least`
   /// and `most`: both bounds of b V (m^2/Pa). All processes need all values.
@@ -36,7 +36,7 @@ class FoundModulus {
     stored_ = stored;
   }
 
-  /// A step begins with the share that the last accepted step has found.
+  /// The share at the end of the last accepted step, with which the next one begins.
   void accepted() { accepted_share_ = share_; }
   void rewound() { share_ = accepted_share_; }
   void restore(double share) { share_ = accepted_share_ = share; }

@@ -1,4 +1,4 @@
-// What one part has received and another one has counted, where the two may be solved one after the other.
+// Amounts that one part has received and another one has counted, for parts that may be solved one after the other.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,9 @@
 namespace sprekk::couplers {
 
 /// Fluid that passes from one part to another, an amount for each entity (volume_unit). Two sums are kept: what has
-/// passed, by the solution for `by`, and what of it the equations of `counting` have counted. So nothing is lost when
-/// the two are solved one after the other, or one of them in substeps. At the end of a step only the difference of the
-/// sums is kept: sums since the start would have the round-off of all fluid that has ever passed, which may be any
-/// multiple of what passes now.
+/// passed according to the solution for `by`, and how much of it the equations of `counting` have counted. So nothing
+/// is lost if the two are solved one after the other, or one of them in substeps. After a step only the difference of
+/// the sums is kept, since sums since the start would have the round-off of all fluid that has ever passed.
 class PassedAmounts {
  public:
   /// Adds the fields `exchanged` and `counted` of a coupler. `location`: where the amounts are.
@@ -33,7 +32,7 @@ class PassedAmounts {
     counted_ = add("counted", counting, "Of it, what the " + std::string(counter) + " has counted");
   }
 
-  /// What has passed by now, or by the start of the step, that had not been counted before the step.
+  /// What has passed by now (or by the start of the step) and had not been counted before the step.
   Vector uncounted_now() const { return passed_->now() - counted_->accepted(); }
   Vector uncounted_at_start() const { return passed_->accepted() - counted_->accepted(); }
 
@@ -50,7 +49,7 @@ class PassedAmounts {
   void begin() {
     for (Field* amount : {passed_, counted_}) amount->set_both(Vector::Zero(amount->size()));
   }
-  /// The sum of what has passed and is not counted, as the owners have it. Collective.
+  /// The sum over owned entities of what has passed and is not counted. Collective.
   double sum_uncounted() const { return sum_owned(mesh_, passed_->spec().location, passed_->now() - counted_->now()); }
 
  private:

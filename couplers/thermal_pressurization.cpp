@@ -1,4 +1,4 @@
-// thermal_pressurization: fluid and grains expand when they are warmed, which presses fluid out of pores and fractures.
+// thermal_pressurization: fluid and grains expand with temperature, which presses fluid out of pores and fractures.
 #include <algorithm>
 #include <optional>
 

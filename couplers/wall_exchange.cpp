@@ -125,11 +125,10 @@ class WallExchange : public Coupler, public KeepsState, public CountsAmounts, pu
     constexpr double worth_a_note = 1e5;  // Pa, that of the atmosphere
     const double difference = largest(*other);
     if (largest(*none_of) > 0 || difference < worth_a_note) return;
-    notes.add(
-        name() + ": a start without pressure",
-        fmt::format("{} starts at 0 Pa, and {} at up to {:.3g} Pa (fluid rushes between rock and fractures in the "
-                    "first step) give an 'initial_pressure' to both, unless that is meant",
-                    none_of->name(), other->name(), difference));
+    notes.add(name() + ": a start without pressure",
+              fmt::format("{} starts at 0 Pa, and {} at up to {:.3g} Pa (fluid flows fast between rock and fractures "
+                          "in the first step) give an 'initial_pressure' to both, unless that is meant",
+                          none_of->name(), other->name(), difference));
   }
 
   static void note_absence(const std::vector<Component*>& components, Notes& notes) {

@@ -1,4 +1,4 @@
-// What couplers of fluid and of heat between fractures and rock have in common.
+// The common part of couplers of fluid and of heat between fractures and rock.
 #pragma once
 
 #include <cmath>
@@ -29,7 +29,7 @@ struct WallFluxes {
 };
 
 /// The conductance of the matrix in front of each wall, one over the derivative of `trace` by the flux: m/(Pa s), or
-/// W/(m^2 K) for heat; 1 where the matrix does not resist. `trace`: the pressure or temperature at the walls.
+/// W/(m^2 K) for heat; 1 where the matrix has no resistance. `trace`: the pressure or temperature at the walls.
 /// Collective.
 inline Vector conductance_in_front(const Mesh& mesh, const LinearExpression& trace, const Field& flux) {
   SPREKK_EXPECT(flux.size() == mesh.wall_count(), flux.name(), flux.size(), mesh.wall_count());
@@ -45,8 +45,8 @@ inline Vector conductance_in_front(const Mesh& mesh, const LinearExpression& tra
   return conductance;
 }
 
-/// residual(row) += diag(factors) · trace, with its derivatives. Returns the trace. It may be a difference of larger
-/// numbers, as where the matrix drains into a fracture of little pressure: round-off is compared with its terms.
+/// residual(row) += diag(factors) · trace, with its derivatives. Returns the trace. The trace may be a small difference
+/// of large terms, as where the matrix drains into a fracture with low pressure: its round-off is that of these terms.
 inline Vector add_trace(Assembly& assembly, const Field& row, const LinearExpression& trace, const Vector& factors) {
   Vector now = trace.now();
   SPREKK_ASSERT(now.size() == factors.size(), row.name(), now.size(), factors.size());

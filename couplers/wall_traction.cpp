@@ -139,10 +139,9 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     if (loaded_with_ != alpha_.version()) load_with_fluid();
   }
 
-  /// Notes suction, a pressure below zero. It pulls the walls together whatever the reference of pressures is: the wall
-  /// traction contains the pressure itself. Viscous fluid that fills a fracture up to its tip has no lowest pressure
-  /// there (Spence and Sharp, Proc. R. Soc. A 400 (1985) 289), so the smaller the cell at a tip is, the lower is its
-  /// pressure.
+  /// Notes suction, a pressure below zero. It pulls the walls together, since the wall traction contains the pressure
+  /// itself and not its change. Viscous fluid that fills a fracture up to its tip has no lowest pressure there (Spence
+  /// and Sharp, Proc. R. Soc. A 400 (1985) 289), so the smaller the cell at a tip is, the lower is its pressure.
   void note_step(Notes& notes, const StepTime&) const override {
     if (contacts_.empty()) note_overlaps(notes);
     if (!fluid_) return;
@@ -154,9 +153,9 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     const double suction = -pressure.minCoeff(&lowest);
     if (suction <= rounding::far_above * pressure.maxCoeff() || suction <= 0 || alpha_[lowest] == 0) return;
     notes.add(fluid_->pressure().name() + " suction",
-              fmt::format("{} falls to {:.3g} Pa at {} (suction: it pulls the walls of the fracture together, which a "
-                          "fluid that may boil does not) look at what is extracted there, at fluid that cannot reach a "
-                          "fracture that opens, and at the size of the steps",
+              fmt::format("{} falls to {:.3g} Pa at {} (suction: it pulls the walls of the fracture together, but a "
+                          "real fluid would boil) check what is extracted there, whether fluid can reach a fracture "
+                          "that opens, and the size of the steps",
                           fluid_->pressure().name(), -suction, to_text(mesh_.fracture_cells[lowest].center)),
               suction);
   }
@@ -234,11 +233,12 @@ class WallTraction : public Coupler, public RestsTogether, public CountsFromHere
     }
     const std::vector<Pocket> enclosed = pockets(mesh_);
     if (enclosed.empty()) return;
-    notes.add("rock between fractures without stress",
-              fmt::format("fractures cut off {} parts of the rock, the smallest at {}, and press nothing at the start "
-                          "(while all of its walls are open nothing holds such a part, and a step may fail with a "
-                          "singular system) give the rock an initial_stress that balances the loads",
-                          enclosed.size(), to_text(enclosed.front().center)));
+    notes.add(
+        "rock between fractures without stress",
+        fmt::format("fractures cut off {} parts of the rock, the smallest at {}, and their walls carry no stress at "
+                    "the start (while all walls of such a part are open nothing holds it, and a step may fail with a "
+                    "singular system) give the rock an initial_stress that balances the loads",
+                    enclosed.size(), to_text(enclosed.front().center)));
   }
 
   /// T = sigma_0 n on the plus wall, and f = T + alpha_i p_i n. Nothing for rock without stress.

@@ -16,7 +16,7 @@ struct CellEquations {
   Tensor by_traction = Tensor::Zero(), by_jump = Tensor::Zero();
 };
 
-/// What the equations of a cell depend on besides its trial state and its traction.
+/// The data of the equations of a cell besides its trial state and its traction.
 struct CellSettings {
   double normal_stiffness, tangential_stiffness;    ///< c, Pa/m, positive
   double normal_compliance, tangential_compliance;  ///< of springs between the walls, m/Pa; 0 where there are none

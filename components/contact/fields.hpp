@@ -5,8 +5,8 @@
 
 namespace sprekk::contact {
 
-/// What friction depends on: the slip since the accepted state, or the slip rate. It decides whether traction and jump
-/// are path dependent in a time scheme of two stages (FieldSpec::is_path_dependent).
+/// Whether friction depends on the slip since the accepted state or on the slip rate. In the first case traction and
+/// jump are path dependent in a time scheme of two stages (FieldSpec::is_path_dependent).
 enum class Friction { of_path, of_rate };
 
 /// Adds the contact traction f, Pa, (normal, tangential) of each fracture cell.

@@ -39,8 +39,8 @@ struct Options;
 /// gap h = [u]_n − |[u]_t| tan psi, the slip of the step d = [u]_t − [u]_t,old, and the stiffness c of the walls:
 ///   f_n = min(0, f_n + c_n h)                                                      (Eq. 2 of the paper)
 ///   f_t = projection of f_t + c_t d onto [−b, b],  b = −mu_s min(0, f_n + c_n h)   (Eq. 3 of the paper)
-/// which hold for any c > 0 exactly when the conditions do (Alart and Curnier 1991; Hüeber, Stadler, Wohlmuth 2008),
-/// and divided by c (so that every residual is a length), are solved by a semismooth Newton method. f acts on the plus
+/// For any c > 0 these are equivalent to the conditions (Alart and Curnier 1991; Hüeber, Stadler, Wohlmuth 2008).
+/// Divided by c, so that every residual is a length, they are solved by a semismooth Newton method. f acts on the plus
 /// wall, [u] = u(minus) − u(plus), so friction makes f_t point along the slip: the power −f·[u]' that it supplies to
 /// the walls is not positive. (The paper's Eq. 3 has the opposite sign.)
 ///
@@ -52,22 +52,21 @@ struct Options;
 /// Where friction depends on slip rate and state (RateAndStateLaw), walls under shear always creep. The trial then
 /// returns to the solution of
 ///   f_t = tau(|d|/dt, theta, −min(0, f_n + c_n h)) d/|d| with f_t + c_t d held at the trial,
-/// which is smooth where walls touch: there is no cone, and no state of sticking. `State` is then `slip` above V_0.
+/// which is smooth where walls touch: there is no cone, and walls never stick. `State` is `slip` where V is above V_0.
 ///
-/// mu_s and psi are those of the end of the step. The gap depends on the present slip and psi, not on their history:
+/// mu_s and psi are those at the end of the step. The gap depends on the present slip and psi, not on their history:
 /// where psi falls, a fracture that has slipped closes.
 ///
 /// With Options::fractures the contact is on these fractures only. Elsewhere f = 0, the coupler makes [u] = 0, and
-/// parameters are not asked for.
+/// parameters are not needed.
 ///
-/// A wall that slides back loses the opening that it has gained by dilation. The fracture closes, fluid in it that
-/// cannot leave is compressed, its pressure pushes the walls apart, and they hold less shear. So there may be no
-/// state between the present slip and zero slip in which friction balances the load. Newton's method then cycles
-/// between sticking and a state where the slip has the wrong direction. The state in balance lies beyond the kink of
-/// |[u]_t| at zero. Therefore a cell for which sliding back has led to slip in the wrong direction takes the
-/// derivatives, and the residual of the update, from the piece of |[u]_t| beyond the kink. The solutions stay the same.
-/// Cells without friction never take that piece: they do not dilate, and their f_t is zero up to round-off, so it has
-/// no direction in which they could be about to slide.
+/// A wall that slides back loses the opening by dilation. The fracture closes and compresses trapped fluid, whose
+/// pressure reduces the contact traction and so the shear that the walls hold. So friction may balance the load in no
+/// state between the present slip and zero slip. Newton's method then cycles between sticking and slip in the wrong
+/// direction, because the solution lies beyond the kink of |[u]_t| at zero. Therefore, once sliding back has led to
+/// slip in the wrong direction, the update of this cell takes residual and derivatives from the piece of |[u]_t| beyond
+/// the kink. This does not change the solutions. Cells without friction never take that piece: they do not dilate, and
+/// their f_t is round-off, which has no direction.
 class FrictionalContact : public Component,
                           public PiecewiseSmooth,
                           public KeepsState,
@@ -83,9 +82,9 @@ class FrictionalContact : public Component,
                           public TellsEvents,
                           public LimitsStep {
  public:
-  /// `stiffness_factor`: the stiffness of the springs between the walls over that of the rock against a jump of the
-  /// cell (Multiplier). Throws InputError where the scene has no fractures, and for friction that is a formula beside
-  /// another law of friction.
+  /// `stiffness_factor`: stiffness of the springs between the walls (Multiplier) over the stiffness of the rock against
+  /// a jump of the cell. Throws InputError where the scene has no fractures, and for a formula of friction together
+  /// with another law of friction.
   FrictionalContact(const ComponentContext& context, const Options& options,
                     Multiplier multiplier = Multiplier::present, double stiffness_factor = 1);
   ~FrictionalContact() override;
@@ -93,10 +92,10 @@ class FrictionalContact : public Component,
   void evaluate_data(const StepTime& step) override;
   bool allows_stages() const override { return true; }
   void begin_step(const StepTime&) override;
-  /// Cells that have grown are bonded, [u] = 0, until the equilibrium on the new mesh with bonded cells has been found.
-  /// Cells that cover given-up ones are held meanwhile at the jump of these, with the same volume. Where tips only go
-  /// on in this way, all other cells are held, too: such a change of the mesh lets no walls slide or part, which with
-  /// friction would not be undone.
+  /// New cells are bonded, [u] = 0, until the equilibrium on the new mesh has been found. Cells that replace cells of
+  /// the old mesh are held meanwhile at the jumps of these, with the same volume. If tips have only moved in this way,
+  /// all other cells are held, too: then the change of the mesh makes no walls slide or open, which friction would make
+  /// irreversible.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
   /// Throws InputError for friction that depends on the slip rate: such walls creep under any load.
@@ -110,10 +109,10 @@ class FrictionalContact : public Component,
   void set_search_mode(SearchMode mode) override;
   void deactivate_conditions() override;
   /// Keeps cells that have slid back over their asperities in the state stick. Sliding back closes the fracture, which
-  /// reduces its contact pressure and so its friction. Walls may then come to rest far away although they could also
-  /// have stayed where they were. Small increments lead to the state in which they stick: as long as no cell changes
-  /// its state, tractions are linear in the load, so they are within the (convex) cone of friction all along the step
-  /// if they are at both of its ends.
+  /// reduces the contact pressure and so friction. So a second solution may exist in which walls slide far back. Small
+  /// increments of the load lead to the solution in which they stick: while no cell changes its state, tractions are
+  /// linear in the load, so they are within the (convex) cone of friction during the whole step if they are at its
+  /// start and end.
   int keep_states() override;
   int release_violated() override;
   void release_kept() override { kept_.clear(); }
@@ -121,7 +120,7 @@ class FrictionalContact : public Component,
   void report(std::vector<Quantity>& quantities) const override;
   void output(std::vector<OutputField>& fields) const override;
   void note_input(Notes& notes) const override;
-  /// Tells of walls that slide or part in the first step, under the initial stress alone.
+  /// Adds a note on walls that slide or open in the first step under the initial stress alone.
   void note_start(Notes& notes) const override;
   std::string loss_of_one_stage() const override;
   void note_step(Notes& notes, const StepTime& step) const override;
@@ -129,13 +128,13 @@ class FrictionalContact : public Component,
   void save(std::map<std::string, Vector>& state) const override;
   void restore(const std::map<std::string, Vector>& state) override;
   void begin_totals() override;
-  /// Walls that lose strength, and have slipped or opened in this step (runaway.cpp).
+  /// The walls that have weakened by slip or opening in this step (runaway.cpp).
   Softened softened() const override;
-  /// The slip of cells that slip, and the opening of cells that part against their tensile strength.
+  /// The slip of cells that slip, and the opening of cells that open against their tensile strength.
   FreeValues free_values() const override;
   std::string tell_loss(const LossOfStability& loss) const override;
   void note_passed(const std::string& told, Notes& notes) override;
-  /// Fast slip, where friction depends on the rate; else motion that has run away (runaway.cpp).
+  /// Events of fast slip, where friction depends on the rate; else slip that has run away (runaway.cpp).
   std::vector<Quantity> event_figures() const override;
   std::vector<Event> events(const StepTime& step) const override;
   double longest_step(double start) const override;
@@ -147,14 +146,14 @@ class FrictionalContact : public Component,
   bool lives_on_fractures() const override { return true; }
   Field& jump() override { return jump_; }
   double opening_under(int cell, double normal_traction) const override;
-  /// The tangential stiffness of a cell is replaced by that of its whole fracture: slip of all cells together meets a
-  /// stiffness that is smaller by the ratio of the size of the cell to that of the fracture. When a load decreases,
-  /// the derivatives of slip make all cells of a fracture slide back at once. With the stiffness of single cells the
-  /// iteration would take these cells to slip back by friction, then forth again, where they only stick.
+  /// The tangential stiffness of a cell is replaced by that of its whole fracture, which is smaller by the ratio of the
+  /// size of the cell to that of the fracture. When a load decreases, the derivatives of slip make all cells of a
+  /// fracture slide back at once. With the stiffness of single cells these cells, which stick, would be found to slip
+  /// back, then forth again.
   ///
   /// The normal stiffness is limited to half of the tangential one over mu_s tan psi. Walls that slide freely by d
-  /// while open overlap by |d| tan psi. With a larger normal stiffness the iteration would take them to stick, return
-  /// to where they were, open, and so on; with the limit it takes them to slip.
+  /// while open overlap by |d| tan psi. With a larger normal stiffness they would be found to stick and to open in
+  /// turn; with the limit they are found to slip.
   void set_wall_stiffness(const Vector& stiffness) override;
   std::string accept_friction_factor(const Field& factor) override;
   bool needs_shear_modulus() const override { return rate_and_state_ != nullptr; }
@@ -165,7 +164,7 @@ class FrictionalContact : public Component,
   bool is_bonded(int cell) const { return !bonded_.empty() && bonded_[cell]; }
 
  private:
-  /// The stiffness c of the trial. It decides how Newton's method finds the answer, and does not change the answer.
+  /// The stiffness c of the trial. It changes the iterates of Newton's method, but not the solution.
   const Vector& stiffness() const { return is_without_shortcuts_ ? stiffness_of_walls_ : stiffness_of_fractures_; }
   /// The compliance of the springs between the walls of a cell, m/Pa, (normal, tangential); 0 without springs. With a
   /// penalty, the compliance is part of the answer; so it must not depend on the stiffness c of the trial.
@@ -175,8 +174,8 @@ class FrictionalContact : public Component,
   Trial::AtRate at_rate(int cell, const Trial& trial) const;
   Vector slips() const;  ///< m, now, along the tangents of each cell
   SlippingWalls slipping_walls() const;
-  /// The change of length of the springs, m, which adds to the gap: negative where they are pressed together. Zero with
-  /// Multiplier::last, since the traction at which they carry nothing is the one of the present iterate.
+  /// The change of length of the springs, m, which adds to the gap: negative where they are shortened. Zero with
+  /// Multiplier::last, whose springs have no force at the traction of the present iterate.
   double overlap(int cell) const;
   /// The slip of the springs in the step, m, before friction acts; zero with Multiplier::last.
   TangentialVector elastic_slip(int cell) const;
@@ -187,15 +186,15 @@ class FrictionalContact : public Component,
   double dilation_at(int cell, double slip) const;
   double closure(int cell, double normal_traction) const;              ///< m
   double closure_by_traction(int cell, double normal_traction) const;  ///< its derivative, m/Pa
-  /// Friction and dilation of formulas where nothing has slid.
+  /// Checks formulas of closure and dilation, and takes the derivative of dilation at zero slip.
   void evaluate_formulas();
-  /// The state of the walls that is remembered: with the slip of this step, or without where it begins.
+  /// The state of the walls for History: at the end of the step if it `has_moved`, else at its start.
   History::StateAt state_remembered(bool has_moved) const;
   /// The coefficient of friction by this law. Throws DataError where it is negative or not finite.
   OfWalls friction_by_law(int cell, const FrictionLaw& law, const WallState& state) const;
   /// The strength of the walls in this state, with derivatives, by their own laws.
   Strength strength_by_laws(int cell, const WallState& state) const;
-  /// The same with the factor of friction that another component gives.
+  /// The same, with the factor of friction from another component.
   Strength strength(int cell, const WallState& state) const;
   /// The state of the walls with this path (m) at the end of the step, this slip in the step and this pressure (Pa).
   WallState wall_state(int cell, double path, const SlipOfStep& step, double pressure) const;
@@ -214,17 +213,17 @@ class FrictionalContact : public Component,
   /// in the step.
   double path(int cell, double gap, double slip) const;
   TangentialVector moved(int cell) const;  ///< the slip in the step, m
-  /// Its size. In space, its part along the trial traction: the same in each solution, where walls slide along that,
-  /// and linear from no slip on, where the direction of the slip itself has no meaning. Not with springs between the
-  /// walls, which also move along the change of the traction.
+  /// Its size. In space, its part along the trial traction: both are equal in each solution, in which walls slide along
+  /// it, and this part is also differentiable at zero slip. Not with springs between the walls, which also move along
+  /// the change of the traction.
   SlipOfStep slip_of_step(int cell, const TangentialVector& trial) const;
   void go_on_below_zero(const SlipOfStep& step, Strength& strength) const;
   static TangentialVector tangential(const Vector& values, int cell);
-  /// A number for the state of a cell, and which way it slips, if friction knows; when pieces are followed, it also
-  /// tells the piece of |[u]_t|.
+  /// A number for the state of a cell and, with friction, for the direction of its slip; while pieces are followed also
+  /// for the piece of |[u]_t|.
   int piece(int cell) const;
 
-  /// What Newton's method has tried in this step for a cell that slides back towards zero slip.
+  /// The last update by Newton's method in this step of a cell that slides back towards zero slip.
   struct BackSlip {
     enum class Piece { none, before_kink, beyond_kink } taken = Piece::none;  ///< of |[u]_t|, by the last update
     TangentialVector direction = TangentialVector::Zero();                    ///< of the slip at that update
@@ -268,8 +267,8 @@ class FrictionalContact : public Component,
   std::vector<double> fracture_size_;        ///< m, as FractureCell::size
   /// c, Pa/m, (normal, tangential) of each cell: with the tangential stiffness of the cell's walls, and with that of
   /// its whole fracture. Newton's method first uses the stiffness of the fracture, with which cells that unload
-  /// together stick at once. After a failure it uses that of the walls: with the other one it may cycle between states
-  /// that differ in single cells.
+  /// together stick at once. After a failure it uses that of the cell's walls, since with the other one it may cycle
+  /// between states that differ in single cells.
   Vector stiffness_of_walls_, stiffness_of_fractures_;
   Vector stiffness_of_springs_;  ///< Pa/m, as that of fractures without the limit by friction: penalties
 };

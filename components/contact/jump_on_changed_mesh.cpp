@@ -10,8 +10,8 @@ namespace sprekk::contact {
 
 namespace {
 
-/// Of the jump along a cell at the tip of a fracture, which falls with the square root of the distance to the tip: the
-/// part between the places `from` and `to`, shares of the length from the other end on.
+/// The part of the integral of the jump in a cell at a tip that lies between `from` and `to` (shares of the length,
+/// from the other end). The jump falls with the square root of the distance to the tip.
 double part_at_tip(double from, double to) {
   const auto beyond = [](double place) { return (1 - place) * std::sqrt(1 - place); };
   return beyond(from) - beyond(to);

@@ -12,8 +12,8 @@ struct JumpsOnMesh {
   const Vector& jump;  ///< (normal, tangential) of each fracture cell
 };
 
-/// The jumps on the new mesh: those of kept cells stay, new cells have none, and cells that cover given-up ones get
-/// their volumes. `carried`: what the transfer of fields has made of the jumps.
+/// The jumps on the new mesh: kept cells keep them, new cells have none, and cells that replace old ones get the volume
+/// of the jumps of these. `carried`: the jumps after the transfer of fields.
 Vector jump_on_changed_mesh(const MeshChange& change, const JumpsOnMesh& carried, const JumpsOnMesh& before);
 
 }  // namespace sprekk::contact

@@ -28,8 +28,8 @@ std::optional<SlidingWalls> FrictionalContact::sliding(int i) const {
                slip = jump_.now()[dimension * i + 1], stiffness_to_slip = stiffness()[dimension * i + 1];
   const bool is_closed = normal < 0 && !t.is_open();
   const double held = t.strength.cohesion - t.strength.friction * normal;
-  // Walls at rest that have slid keep their slip and opening within the cell: the friction is then the mobilised one.
-  // Otherwise a tiny fall of the pressure would change the walls next to a kink at once.
+  // Walls at rest that have slid keep their slip and opening within the cell: friction is then the mobilised one.
+  // Otherwise a tiny fall of the pressure would move the walls next to a kink at once.
   const bool has_slid = std::abs(slip) > least_slip * std::abs(shear) / stiffness_to_slip;
   if (is_closed && !has_slid && std::abs(shear) < (1 - rounding::far_above) * held) return std::nullopt;
   const double dilation = std::copysign(t.dilation, slip),

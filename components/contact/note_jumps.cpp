@@ -40,8 +40,8 @@ void note_slips(Notes& notes, const std::string& name, const JumpsOfStep& step) 
     notes.add(
         name + " has slid at the start",
         fmt::format("walls have slid by up to {:.3g} m while the state at the start was settled (friction does not "
-                    "hold them there, and their slip and opening are part of the results) look at the initial "
-                    "stress and at the friction, if they were meant to stick",
+                    "hold them there, and their slip and opening are part of the results) check the initial stress and "
+                    "the friction, if they were meant to stick",
                     step.slip_at_start),
         step.slip_at_start);
   if (largest.sliding > rounding && largest.of_springs > springs_show * largest.sliding)
@@ -74,19 +74,18 @@ void note_jumps(Notes& notes, const std::string& name, const Mesh& mesh, const J
     const double length = dimension == 2 ? measure : std::sqrt(measure);
     if (jump > step.large_jump * length)
       notes.add(name + " large jump of " + fracture.name,
-                fmt::format("the walls of fracture '{}' are {:.3g} m apart from where they were, {:.2g} of its {} of "
-                            "{:.3g} m (over {:.3g} is large: its place and its shape are taken to stay) look at loads, "
-                            "stiffness and what holds the rock",
+                fmt::format("the walls of fracture '{}' have a jump of {:.3g} m, {:.2g} of its {} of "
+                            "{:.3g} m (over {:.3g} is large: jumps are assumed to be small) check loads, stiffness and "
+                            "how the rock is held",
                             fracture.name, jump, jump / length,
                             dimension == 2 ? "length" : "size, the root of its area,", length, step.large_jump),
                 jump);
-    // No note where cells were open from the start, nor where friction has held nothing: a fracture that fluid opens is
-    // meant to. Cells that have grown start closed.
+    // No note if cells were open from the start, or if there was no friction: then the fluid is meant to open the
+    // fracture. Grown cells start closed.
     if (all_open && pressed > 0 && sheared > noticeable * pressed)
       notes.add(name + " all open: " + fracture.name,
-                fmt::format("all {} cells of fracture '{}' have opened (the fluid carries all that pressed its walls "
-                            "together, and friction holds nothing any more) look at rates and pressures, if it was "
-                            "meant to slip",
+                fmt::format("all {} cells of fracture '{}' have opened (the fluid carries the whole normal stress, and "
+                            "no friction is left) check rates and pressures, if it was meant to slip",
                             fracture.cell_count, fracture.name));
   }
 }

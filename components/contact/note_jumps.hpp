@@ -1,4 +1,4 @@
-// Notes on jumps that are large, or of springs between the walls, and on fractures that have opened as a whole.
+// Notes on large jumps, on jumps of springs between the walls, and on fractures that are open along their whole length.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace sprekk::contact {
 
-/// What the contact has at the end of a step.
+/// The state of the contact at the end of a step.
 struct JumpsOfStep {
   const Field& traction;             ///< Pa, (normal, tangential) of each fracture cell
   const Field& jump;                 ///< m, the same

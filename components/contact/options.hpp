@@ -32,14 +32,14 @@ struct Options {
   RateAndStateOptions rate_and_state;
   bool depends_on_rate = false;  ///< whether the scene has the section
   ClosureOptions closure;
-  /// Jump over the length of its fracture from where on a note says that it is large.
+  /// Jump over the length of its fracture from which on a note says that it is large.
   double large_jump = 0.01;
   std::vector<std::string> fractures;  ///< where the contact is; all if there are none
   Origin fractures_origin;
   Spec spec(const std::string& type, const std::string& doc);
 };
 
-/// Builds FrictionalContact, whose class the sources of the types need not read. `stiffness_factor`: c over the
+/// Builds a FrictionalContact; the sources of the types need not include its header. `stiffness_factor`: c over the
 /// stiffness of the rock against a jump of the cell. Throws InputError where the scene has no fractures.
 std::unique_ptr<Component> frictional_contact(const ComponentContext& context, const Options& options,
                                               Multiplier multiplier, double stiffness_factor);

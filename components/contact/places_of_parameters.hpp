@@ -9,7 +9,7 @@
 namespace sprekk::contact {
 
 /// The place of each fracture cell that the contact is on (`here`, one flag a cell; none for all). All other fracture
-/// cells get the place of the first of these, and their values are not used: so a scene need not give parameters for
+/// cells get the place of the first of these, and their values are not used. So a scene need not give parameters for
 /// fractures without this contact.
 inline std::vector<Place> places_of_parameters(const Mesh& mesh, const std::vector<char>& here) {
   std::vector<Place> places = fracture_cell_places(mesh);

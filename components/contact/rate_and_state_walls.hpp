@@ -48,7 +48,8 @@ class RateAndStateWalls {
 
   /// The longest next step, s, for LimitsStep.
   double longest_step() const;
-  /// Whether the step, whose slips (m) are given, was too long for the rates or slips at its end, for LimitsStep.
+  /// For LimitsStep: whether the step was too long for the slip rates at its end, or for its slips (m), which are
+  /// given.
   std::optional<StepTooLong> too_long(const Vector& slip, const StepTime& step) const;
 
   void accepted(const SlippingWalls& walls);

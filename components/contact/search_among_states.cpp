@@ -51,8 +51,8 @@ State FrictionalContact::state(int i) const {
 
 namespace {
 
-/// Whether slip has the positive one of the two directions in a plane. In space the direction changes without a kink,
-/// and all directions are one piece.
+/// In a plane: whether slip has the positive direction. In space the direction changes without a kink, and all
+/// directions are one piece.
 bool is_forward(const TangentialVector& vector) { return dimension == 2 && vector[0] > 0; }
 
 }  // namespace

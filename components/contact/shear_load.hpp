@@ -12,9 +12,9 @@ struct ShearLoad {
   double friction_used;  ///< |tau| over the shear strength C + mu sigma_n': 1 where the walls slide
 };
 
-/// `traction`: (normal, tangential), Pa, the normal one negative in contact, beside the pressure of the fluid. Walls
-/// that have parted carry no traction: by convention friction_used is then 1 and slip_tendency mu, the values of walls
-/// that slide just before they part. Walls that touch without a load have 0 for both.
+/// `traction`: (normal, tangential), Pa, the normal one negative in contact, without the fluid pressure. Walls that
+/// have parted carry no traction: by convention friction_used is then 1 and slip_tendency mu, the values of walls that
+/// slide just before they part. Walls that touch without a load have 0 for both.
 ShearLoad shear_load(const Point& traction, const Strength& strength, bool has_parted);
 
 }  // namespace sprekk::contact

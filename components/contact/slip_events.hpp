@@ -17,8 +17,8 @@ struct SlippingWalls {
 };
 
 /// Records the events of a run. One begins with the first step at whose end a fracture cell slips faster than a rate,
-/// and lasts until the end of the first step at whose end none does. The slip of all steps of the event counts, of slow
-/// cells, too.
+/// and lasts until the end of the first step at whose end none does. The slip of an event is that of all cells, slow
+/// ones too, in all of its steps.
 class SlipEvents {
  public:
   /// A time step, with values of each fracture cell.
@@ -43,15 +43,15 @@ class SlipEvents {
 
   /// To be called at the start of a step.
   void begin_step(const SlippingWalls& walls);
-  /// The latest event at the end of this step, which begins where the last accepted one has ended.
+  /// The latest event at the end of this step. The step begins where the last accepted one has ended.
   Event after(const Step& step) const;
   const Event& latest() const { return latest_; }
   /// Whether the event ends with this step.
   bool ends_with(const Step& step) const { return latest_.goes_on && !after(step).goes_on; }
   /// To be called when the step has been accepted.
   void accept(const Step& step);
-  /// Forgets the events of the run from which this one starts: an event under way begins with the first step.
-  /// `slip`: m, of each cell, at the start.
+  /// To be called at the start from another run: forgets its events. An event that is under way begins with the first
+  /// step. `slip`: m, of each cell, at the start.
   void begin_anew(const Vector& slip);
   static void report(const std::string& name, const Event& event, std::vector<Quantity>& quantities);
 

@@ -9,7 +9,7 @@
 
 namespace sprekk::contact {
 
-/// The gap of a cell, m, what its walls hold, and the traction that the return map takes back to the cone, Pa.
+/// The gap of a cell, m, the strength of its walls, Pa, and the trial traction for the return map, Pa.
 struct Trial : TrialTraction<dimension - 1> {
   double gap;
   double gap_by_traction;           ///< d gap / d f_n, m/Pa
@@ -22,7 +22,7 @@ struct Trial : TrialTraction<dimension - 1> {
   double bound_by_pressure;        ///< d bound / d (−normal) where the walls touch
   TangentialVector bound_by_slip;  ///< d bound / d [u]_t where normal and path are held; only with a formula
   double least_bound;  ///< a smaller bound counts as no friction: the direction of its traction is round-off
-  /// The traction of walls whose friction depends on the slip rate; none for friction with a cone.
+  /// The traction of walls whose friction depends on the slip rate; nothing for other friction, which has a cone.
   struct AtRate {
     ReturnedTraction<dimension - 1> traction;
     TangentialVector by_pressure = TangentialVector::Zero();  ///< d traction / d (−normal) where the walls touch
@@ -39,7 +39,7 @@ struct Trial : TrialTraction<dimension - 1> {
 struct SlipOfStep {
   double size;
   TangentialVector by_jump;
-  double below_zero = 0;  ///< m, negative where the slip is against `by_jump`: laws are continued linearly there
+  double below_zero = 0;  ///< m, negative where the slip opposes `by_jump`: laws continue linearly there
   bool is_first = false;  ///< whether the walls have not slid before, so that this is their whole slip, too
 };
 

@@ -1,4 +1,4 @@
-// The three types of contact, which differ in what multiplies the gap and the slip (Multiplier), and their parameters.
+// The three types of contact, which differ in their Multiplier, and their parameters.
 #include <fmt/format.h>
 
 #include "components/capabilities/usual_ranges.hpp"
@@ -174,8 +174,8 @@ struct PenaltyOptions : Options {
   }
 };
 
-/// contact/augmented_lagrangian: springs between the walls, whose load multipliers take over. The conditions hold
-/// exactly.
+/// contact/augmented_lagrangian: springs between the walls, whose forces are taken over by multipliers. The conditions
+/// hold exactly.
 struct AugmentedLagrangianOptions : Options {
   double stiffness = 100;  ///< over that of the rock
   Spec spec() {

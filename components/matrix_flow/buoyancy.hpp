@@ -11,26 +11,25 @@
 
 namespace sprekk::matrix_flow {
 
-/// What the excess d of a density over a constant one adds to the fluxes and traces of FluxOperators. Each row of these
-/// matrices is applied to pressures minus that of a fluid at rest around a place y,
+/// The contribution of the excess d of a density over a constant one to the fluxes and traces of FluxOperators. Each
+/// row of these matrices is applied to pressures minus the pressure of a fluid at rest, relative to a place y,
 ///   P(x) = (d(y) + d(x))/2 g·(x − y),
-/// whose density is linear between y and x. y is the middle between the centres of the two cells at a face, or the
-/// centre of its only cell; d(y) is the mean of these cells. So a fluid at rest whose density is linear with height
-/// stays at rest to round-off, on every mesh and with every discretization; others have an error of second order. All
-/// terms are linear in the densities of cells, at prescribed pressures and at walls.
+/// whose density is linear between y and x. y is the midpoint of the centres of the two cells at a face, or the centre
+/// of its only cell; d(y) is the mean of d in these cells. So a fluid at rest whose density is linear with height stays
+/// at rest to round-off, on every mesh and with every discretization; others have an error of second order. All terms
+/// are linear in the densities of cells, at prescribed pressures and at walls.
 class Buoyancy {
  public:
   Buoyancy(const Mesh& mesh, const VectorData& gravity, double constant_density, const FluidDensity& in_rock,
            const FluidDensity* in_fractures);
 
-  /// Makes the matrices anew, for operators that have changed.
-  /// `leaky_sides`: one flag a face, or none.
+  /// Computes the matrices again for operators that have changed. `leaky_sides`: one flag a face, or none.
   void discretize(const FluxOperators& operators, const std::vector<FlowCondition>& conditions,
                   const std::vector<char>& leaky_sides);
   /// Evaluates the density at sides whose pressures are given (one a face, Pa).
   void begin_step(const std::vector<FlowCondition>& conditions, const Vector& boundary_pressure);
 
-  /// What the excess d adds to a quantity on faces: cells · d + of_boundaries.
+  /// The contribution of the excess d to a quantity on faces: cells · d + of_boundaries.
   struct Rows {
     SparseMatrix cells;         ///< faces × cells
     SparseMatrix boundaries;    ///< faces × faces, applied to d at prescribed pressures

@@ -1,4 +1,4 @@
-// What a local problem of the flow depends on.
+// The cells on which a local problem of the flow depends.
 #pragma once
 
 #include "framework/mesh/mesh.hpp"

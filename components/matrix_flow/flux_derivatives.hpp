@@ -1,4 +1,4 @@
-// Derivatives of fluxes by what the mobility follows.
+// Derivatives of fluxes by the variables of the mobility.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace sprekk::matrix_flow {
 
-/// What FluxOperators are applied to.
+/// The vectors to which FluxOperators are applied.
 struct FluxState {
   Vector cells;     ///< Pa, one a cell: pressures less the weight of fluid
   Vector boundary;  ///< one a face: prescribed pressures and fluxes, those through walls among them
@@ -27,7 +27,7 @@ using DifferentiateFluxes =
     std::function<std::vector<FluxDerivatives>(const FlowInputs& flow, const std::vector<char>& nodes,
                                                const FluxState& state, const std::vector<std::vector<Tensor>>& by)>;
 
-/// Collects such derivatives.
+/// Accumulates the entries of such derivatives.
 class FluxDerivativeEntries {
  public:
   explicit FluxDerivativeEntries(std::size_t variables) : flux_(variables), trace_(variables) {}

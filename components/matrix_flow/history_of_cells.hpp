@@ -1,4 +1,4 @@
-// What formulas of properties of rock remember.
+// The memory of formulas for properties of rock.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ class HistoryOfCells {
 
   History& history() { return *history_; }
   StateOfCells& state() { return state_; }
-  /// As those of History, with the present state. Collective.
+  /// The functions of History of the same name, with the present state. Collective.
   void show(const StepTime& step);
   void begin_step(const StepTime& step);
   void remember(const StepTime& step);

@@ -1,4 +1,4 @@
-// Sides of the rock behind which another pressure stands, and the flux that passes them.
+// Leaky sides: the flux through them depends on an outer pressure.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,10 @@ namespace sprekk::matrix_flow {
 /// The flux q through each face of a leaky side, out of the rock (m/s), by the pressure tr p of the rock there:
 ///   q = c (tr p − p_outer), and with `only_out` the larger of this and 0;
 ///   without a conductance and `only_out`: q >= 0, tr p <= p_outer, and one of them is an equality.
-/// The rows of q are d = 0 and, where nothing enters, q − max(0, q + d) = 0, which is linear in pieces, with
+/// The equations of q are d = 0, or with `only_out` q − max(0, q + d) = 0, which is linear in pieces. Here
 ///   d = (c (tr p − p_outer) − q)/(1 + c R)
-/// and R the resistance of the rock in front of the face (d tr p/d q): they are well scaled from closed to open sides.
+/// and R is the resistance of the rock in front of the face (d tr p/d q), by which both equations are well scaled from
+/// closed to open sides.
 class LeakySides {
  public:
   LeakySides(const Mesh& mesh, const std::map<std::string, SideCondition>& sides, const std::vector<char>& inside);
@@ -33,13 +34,13 @@ class LeakySides {
   double largest_pressure() const;
   /// Adds the rows of `outflow` (one a face of the mesh). `trace`: tr p. Collective.
   void assemble(Assembly& assembly, const Field& outflow, const LinearExpression& trace) const;
-  /// d at linear sides, 0 elsewhere: what the flux is yet to change by.
+  /// d at linear sides, 0 elsewhere: the change of q that its equation asks for.
   struct Correction {
     Vector value;              ///< m/s, one a face of the mesh
     Vector of_flux, of_trace;  ///< −d value/d q and d value/d tr p
   };
   Correction correction(const Field& outflow, const LinearExpression& trace) const;
-  /// A number of the faces through which fluid passes now, of those that let it out only. Collective.
+  /// A number that identifies which of the faces with `only_out` let fluid out now. Collective.
   std::uint64_t passing_state(const Field& outflow, const LinearExpression& trace) const;
 
  private:

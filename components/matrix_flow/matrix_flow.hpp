@@ -83,18 +83,17 @@ struct Options {
 
 /// Unknown: the pressure p of every cell. Each row balances the volume of fluid of one cell over the step (m^2):
 ///   S V (p − p_old) + dt (sum of the fluxes out of it) − dt q V = 0,  flux = −(k/mu)(grad p − rho g).
-/// The flux is a linear function of the pressures of cells, or of these and of those of the faces, which are unknowns
-/// then, or has a nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for
-/// a constant density; what another density adds follows from Buoyancy. Properties may change with time, and are taken
-/// at the end of the step; a change of the storage S alone moves no fluid.
-/// With Options::regions there is a flow in these regions only, and no flux through their boundary to other rock: the
-/// discretization has their cells alone (discretize_inside). All other cells keep their initial pressure (rows p −
-/// p_old = 0, times a storage), so they exert no load.
+/// The flux is linear in the pressures of cells, or of cells and faces (which are then unknowns, too), or it has a
+/// nonlinear part (FluxOperators). Gravity enters through the potential p − rho g·x, which is exact for a constant
+/// density; Buoyancy adds the effect of a varying one. Properties may change with time and are taken at the end of the
+/// step. A change of the storage S alone moves no fluid. With Options::regions there is a flow in these regions only,
+/// and no flux through their boundary to other rock: the discretization has their cells alone (discretize_inside). All
+/// other cells keep their initial pressure (rows p − p_old = 0, times a storage), so they exert no load.
 ///
 /// The permeability may be a formula of the state at the end of the step (StatePermeability). Then all operators are
-/// made anew before an assembly with these balances, and Newton's method gets the derivatives of fluxes and traces.
-/// So may the porosity: then S V (p − p_old) becomes the change of what the pores hold since it was counted last
-/// (stored_by_state.cpp), which does not depend on the path of the state.
+/// computed again before each assembly of these balances, and Newton's method gets the derivatives of fluxes and
+/// traces. The porosity may be a formula, too: S V (p − p_old) is then replaced by the change of the pores' content
+/// since it was counted last (stored_by_state.cpp), which does not depend on the path of the state.
 class MatrixFlow : public Component,
                    public PiecewiseSmooth,
                    public KeepsState,
@@ -115,7 +114,7 @@ class MatrixFlow : public Component,
                    public CountsAmounts,
                    public CountsLater {
  public:
-  /// Where the discretization has unknowns: it has FluxOperators::faces, or has none.
+  /// Where the unknowns of the discretization are: also on faces if it has FluxOperators::faces.
   enum class Unknowns { on_cells, on_cells_and_faces };
   /// Whether fluxes are linear in the pressures, or contain FluxOperators::limited.
   enum class Fluxes { linear, two_point, limited };
@@ -146,8 +145,8 @@ class MatrixFlow : public Component,
   void rewound() override { solved_fluxes_ = {}; }
   void balance(std::map<std::string, Balance>& balances) const override;
   void begin_totals() override { cumulative_.set_both(Vector::Zero(cumulative_.size())); }
-  /// Limited fluxes are held as the linear mean of both sides, and become smooth functions (`rounding` of `limit`) that
-  /// come ever nearer to the limited ones.
+  /// Limited fluxes are first held at the linear mean of both sides; then they become smooth functions (`rounding` of
+  /// `limit`) that approach the limited ones.
   void set_search_mode(SearchMode mode) override;
   void observe_iterate(const std::vector<Field*>& unknowns) override;
   void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
@@ -210,13 +209,13 @@ class MatrixFlow : public Component,
 
  protected:
   const Mesh& mesh() const { return mesh_; }
-  /// The storage of a cell with that of the rock around its fluid, 1/Pa.
+  /// The storage of a cell, with that of the deforming rock, 1/Pa.
   double whole_storage(int cell) const { return storage_[cell] + (rock_storage_.size() > 0 ? rock_storage_[cell] : 0); }
-  /// Another number for another mobility.
+  /// A number that changes with the mobility.
   std::uint64_t mobility_version() const { return mobility_version_; }
   /// Takes another discretization; to be called by the constructor.
   void discretize_with(Discretize discretize) { discretize_ = std::move(discretize); }
-  /// Lets begin_step discretize, although mesh and mobility are as before.
+  /// Makes begin_step discretize, although mesh and mobility have not changed.
   void discretize_anew() { discretized_mesh_ = 0; }
 
  private:
@@ -243,7 +242,8 @@ class MatrixFlow : public Component,
   /// Updates mobility and wells after properties have changed.
   void use_properties();
   void check_mobility();
-  /// Of a permeability by formulas: its formulas, what it excludes, its present values, the derivatives at this state.
+  /// For a permeability by formulas: declares them, refuses what they exclude, evaluates them, and finds derivatives at
+  /// the present state.
   void find_state_permeability();
   void refuse_with_formula(const std::string& what, const std::string& why) const;
   void take_permeability();
@@ -259,7 +259,7 @@ class MatrixFlow : public Component,
   void find_conditions();
   /// Updates the matrices of balances and walls after the operators have changed.
   void use_operators();
-  /// What borders that fluid crosses add to operators and conditions.
+  /// Adds the terms of borders that fluid crosses to operators and conditions.
   void use_borders();
   void make_border_traces();
   void apply_boundary_at_borders();
@@ -269,19 +269,19 @@ class MatrixFlow : public Component,
   void open_leaky_sides(const ComponentContext& context);
   /// The pressure at leaky sides, Pa, one a face of the mesh.
   LinearExpression side_pressure() const;
-  /// Adds to the balances of cells what the fluxes through linear leaky sides are yet to change by. It is 0 where their
-  /// rows hold, and gives the balances the resistance of these sides, as a given pressure would.
+  /// Adds to the balances of cells the change that the equations of linear leaky sides ask for (LeakySides). It
+  /// vanishes when these hold, and gives the balances the resistance of the sides, as a prescribed pressure does.
   void assemble_leak(Assembly& assembly, BalanceRows& fluid, double dt) const;
   void correct_leak(Vector& fluxes) const;  ///< adds the same to fluxes, m^2/s, as it has been counted
   Vector leaking() const;                   ///< the size of what leaks out of or into each cell, m^2/s
   void use_storage();
-  void find_history(const ComponentContext& context);  ///< what formulas remember, after all of them
+  void find_history(const ComponentContext& context);  ///< the memory of formulas, after all of them
   /// For a porosity or a storage by a formula (stored_by_state.cpp). Throws InputError for what the formula excludes.
   void find_pores(const ComponentContext& context);
   bool stores_by_state() const { return content_ != nullptr; }
   void take_pores(const StepTime& step);  ///< at the present state; throws StateError
   Vector density_ratio() const;           ///< of the fluid, to that at its initial pressure
-  Vector content_now() const;             ///< what pores hold at the present state, as content_
+  Vector content_now() const;             ///< content of the pores at the present state, as content_
   Vector stored_by_state() const;         ///< m^2, what each cell has stored in this step
   void assemble_stored_by_state(Assembly& assembly, BalanceRows& fluid) const;
   void count_content();
@@ -302,7 +302,7 @@ class MatrixFlow : public Component,
   /// Terms of a density that varies: its values in this step, and the derivatives of balances and of the equations on
   /// faces.
   void use_density();
-  /// Notes steps in which heavy fluid stays above lighter one because backward Euler damps what would grow.
+  /// Notes steps in which heavy fluid stays above light fluid because backward Euler damps an instability.
   void note_heavy_above(Notes& notes, const StepTime& step) const;
   void assemble_density(Assembly& assembly, const Flow& flow, double dt) const;
   void assemble_density_on_faces(Assembly& assembly, double dt) const;
@@ -337,8 +337,8 @@ class MatrixFlow : public Component,
   Property storage_;                             ///< 1/Pa; of pores by a formula: the derivative of what they hold
   std::unique_ptr<FormulaOfCells> pores_;        ///< nullptr where the porosity does not follow the state
   std::unique_ptr<StorageFormula> stores_;       ///< nullptr where the storage does not follow the state
-  Field* content_ = nullptr;                     ///< with one of these only: what rock holds, m^2
-  Vector uncounted_;                             ///< on a mesh that has changed: of this, what a later solve counts
+  Field* content_ = nullptr;                     ///< with one of these only: the fluid that the rock holds, m^2
+  Vector uncounted_;                             ///< on a changed mesh: the part of this that a later solve counts
   std::unique_ptr<HistoryOfCells> history_;      ///< nullptr where nothing is remembered
   std::unique_ptr<StatePermeability> by_state_;  ///< nullptr where the permeability does not follow the state
   DifferentiateFluxes differentiate_;
@@ -399,9 +399,9 @@ class MatrixFlow : public Component,
   enum class State { accepted, now };
   const Flow& flow(State state) const;
   void forget_flow();
-  /// The flux through each face, m^2/s, as the flow was solved in this step: after substeps or stages, in the last one.
-  /// With data of the whole step (a viscosity that follows the temperature at its start) the same pressures would have
-  /// fluxes that do not balance.
+  /// The flux through each face, m^2/s, of the last solve in this step (of the last substep or stage). It is kept,
+  /// since with data of the whole step (a viscosity that follows the temperature at its start) the same pressures would
+  /// give fluxes that do not balance.
   const Vector& fluxes_of_step() const { return solved_fluxes_.size() > 0 ? solved_fluxes_ : face_fluxes(); }
   Vector solved_fluxes_;  ///< empty where the flow was not solved in this step
   /// A step uses the flow at the accepted and at the current state several times.
@@ -414,7 +414,7 @@ class MatrixFlow : public Component,
     Vector fluxes = {};                                            ///< empty for none
   };
   mutable WithWalls with_walls_;
-  /// Of limited fluxes at the last state for which face_flux_derivatives was called.
+  /// Derivatives of limited fluxes at the last state for which face_flux_derivatives was called.
   mutable SparseMatrix limited_by_pressure_, limited_by_wall_flux_, limited_by_side_outflow_;
 
   std::unique_ptr<Buoyancy> buoyancy_;                            ///< nullptr for a constant density

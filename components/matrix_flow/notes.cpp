@@ -109,15 +109,14 @@ void MatrixFlow::note_step(Notes& notes, const StepTime& step) const {
   // Pressures that begin above zero everywhere are absolute; others may be relative to any reference.
   const double initial = initial_pressure_.minCoeff();
   if (initial > 0 && smallest < -rounding::far_above * initial)
-    notes.add(
-        pressure_.name() + " below zero",
-        fmt::format("{} falls to {:.3g} Pa at {} (it began above zero everywhere, and no fluid bears to be pulled: "
-                    "the flow would stop there) look at what is extracted and at the size of the steps",
-                    pressure_.name(), smallest, to_text(mesh_.cell_center[lowest])),
-        -smallest);
+    notes.add(pressure_.name() + " below zero",
+              fmt::format("{} falls to {:.3g} Pa at {} (it began above zero everywhere, and no fluid sustains tension) "
+                          "check what is extracted and the size of the steps",
+                          pressure_.name(), smallest, to_text(mesh_.cell_center[lowest])),
+              -smallest);
   if (most > beyond_every_load)
     notes.add(pressure_.name() + " beyond every load",
-              fmt::format("{} reaches {:.3g} Pa at {} (no rock bears 10 GPa) look at permeability and rates there",
+              fmt::format("{} reaches {:.3g} Pa at {} (no rock sustains 10 GPa) check permeability and rates there",
                           pressure_.name(), pressure[largest], to_text(mesh_.cell_center[largest])),
               most);
 }

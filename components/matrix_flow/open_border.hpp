@@ -1,4 +1,4 @@
-// A border of the regions of a flow that fluid crosses, and what follows from the operators there.
+// A border of the regions of a flow that fluid crosses, with its parts of the operators.
 #pragma once
 
 #include <array>

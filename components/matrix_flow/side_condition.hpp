@@ -1,4 +1,4 @@
-// What holds on a side of the rock.
+// The condition on a side of the rock.
 #pragma once
 
 #include <optional>

@@ -21,9 +21,8 @@ struct FluidAtStart {
   double time;  ///< s
 };
 
-/// Notes a flow whose pressure at the start does not grow with depth by the weight of the fluid: such fluid flows at
-/// once although nothing is injected. A pressure that grows with depth by another amount, with sides that hold it or
-/// let just this flow through, is a flow that is given, and no imbalance. Collective.
+/// Adds a note if the initial pressure is not hydrostatic, so that fluid flows at once although nothing is injected.
+/// There is no note if the sides prescribe this pressure or just this flow: then the flow is meant. Collective.
 void note_start_imbalance(Notes& notes, const FluidAtStart& start, const std::string& name);
 
 }  // namespace sprekk::matrix_flow

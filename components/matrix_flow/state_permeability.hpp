@@ -13,8 +13,8 @@ namespace sprekk::matrix_flow {
 /// The permeability of each cell by formulas of its diagonal, and its derivatives by the variables that they name.
 class StatePermeability {
  public:
-  /// nullptr where the permeability is no formula. Throws InputError at `where` for a tensor that is not given by its
-  /// diagonal. `history`: what formulas may name beside the state, nullptr for nothing.
+  /// Returns nullptr if the permeability is no formula. Throws InputError at `where` for a tensor that is not given by
+  /// its diagonal. `history`: what formulas may name beside the state, nullptr for nothing.
   static std::unique_ptr<StatePermeability> find(const TensorData& data, const Mesh& mesh, Field& pressure,
                                                  const Origin& where, const History* history);
 

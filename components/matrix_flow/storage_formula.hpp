@@ -8,13 +8,13 @@
 
 namespace sprekk::matrix_flow {
 
-/// What a volume of rock stores is the integral of its specific storage S over the pressure p, from the initial one on,
-/// with all else as it is now:
+/// A volume of rock stores the integral of its specific storage S over the pressure p, from the initial pressure, with
+/// all other variables at their present values:
 ///   zeta(p, …) = integral of S(p', …) dp' from p_0 to p,
 /// by Gauss-Legendre in equal pieces. So it follows from the state alone, and not from the path to it.
 class StorageFormula {
  public:
-  /// nullptr where the datum is no formula. Throws InputError at `where` for one that remembers.
+  /// Returns nullptr if the datum is no formula. Throws InputError at `where` for a formula with memory.
   static std::unique_ptr<StorageFormula> find(const Data& data, const Mesh& mesh, const Field& pressure,
                                               const History* history, const Origin& where);
 

@@ -85,8 +85,8 @@ void MatrixFlow::note_heavy_above(Notes& notes, const StepTime& step) const {
     notes.add(
         name() + ": heavy fluid stays above lighter fluid",
         fmt::format("heavier fluid of '{}' lies above lighter one and hardly moves, in a step {:.2g} times as long "
-                    "as the time in which convection could grow (so long a step damps it, also where it would "
-                    "begin) take steps below {:.2g} s until fluid moves, if it is to",
+                    "as the time in which convection could grow (so long a step suppresses convection) take steps "
+                    "below {:.2g} s until fluid moves, if convection is expected",
                     name(), growth, step.dt / growth),
         growth);
 }

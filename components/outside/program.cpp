@@ -272,30 +272,29 @@ std::vector<ProfileEntry> Program::efforts() const {
 }
 
 void Program::note_input(Notes& notes) const {
-  notes.add(
-      name() + " is another program",
-      fmt::format("another program solves the equations of {0} (they are not known here, so an iteration ends when "
-                  "the program would change the values by less than 'until: relative' of the largest one) a "
-                  "note at the end tells how far they may be from the solution",
-                  name()));
+  notes.add(name() + " is another program",
+            fmt::format("another program solves the equations of {0} (Sprekk does not know them, so an iteration ends "
+                        "when the program would change its values by less than 'until: relative' of the largest one) a "
+                        "note at the end estimates how far they may be from the solution",
+                        name()));
 }
 
 void Program::note_step(Notes& notes, const StepTime&) const {
   if (conversation_ && !conversation_->repeats_bits())
     notes.add(name() + " does not repeat itself",
-              fmt::format("the program of {} has answered a question otherwise when it was asked again (it keeps more "
-                          "than its state, or computes in another order each time) repeated and restarted steps differ",
+              fmt::format("the program of {} has given two answers to the same input (it keeps more than its state, or "
+                          "computes in a varying order) repeated and restarted steps will differ",
                           name()));
   if (error_ == 0 || error_before_ == 0) return;
   const double factor = error_ / error_before_;
   if (factor >= 1) return;
   const double bound = error_ / (1 - factor);
-  notes.add(name() + " judged by change",
-            fmt::format("iterations of {} were ended by the change that its program would make next: it is at most "
-                        "{:.2g} of the largest value from the solution, if passes go on to reduce the change {:.2g} "
-                        "times",
-                        name(), bound, factor),
-            bound);
+  notes.add(
+      name() + " judged by change",
+      fmt::format("iterations of {} ended when its program would change its values little: they are at most {:.2g} of "
+                  "the largest one from the solution, if each further pass reduces the change {:.2g} times",
+                  name(), bound, factor),
+      bound);
 }
 
 }  // namespace sprekk::outside

@@ -108,7 +108,7 @@ void note_large_strain(Notes& notes, const std::string& name, const LargestStrai
   notes.add(
       name + " large strain",
       fmt::format("the displacement of '{}' changes by {:.3g} of the distance at {} (strains over {:.3g} are large: "
-                  "the rock is taken to be linear, and its shape to stay) look at loads and stiffness",
+                  "the rock is assumed to be linear, and its displacement to be small) check loads and stiffness",
                   name, largest.strain, to_text(largest.place), options.large_strain),
       largest.strain);
 }

@@ -237,7 +237,7 @@ void LimitedWells::note_step(Notes& notes, const StepTime&) const {
       notes.add(
           name() + "." + names_[w] + " below zero",
           fmt::format("the pressure in well '{}' falls to {:.3g} Pa (around it it began at {:.3g} Pa, and no fluid "
-                      "bears to be pulled: the flow would stop there) give it a 'lowest_pressure', or a smaller "
+                      "sustains tension: this rate is not possible) give it a 'lowest_pressure', or a smaller "
                       "rate",
                       names_[w], pressure, at_start_[w]),
           -pressure);

@@ -49,8 +49,8 @@ void Advection::assemble(Assembly& assembly, const StepTime& step) const {
   const bool is_in_rock = rock_.value && has_row(*rock_.value);
   const bool is_in_fractures = fractures_.value && has_row(*fractures_.value);
   if (!is_in_rock && !is_in_fractures) return;
-  // Nothing is carried before the flow has been solved for, unless it is an unknown here: the fluxes of initial values
-  // are no flow, and may drain a cell of many times what it holds.
+  // Nothing is carried before the flow has been solved, unless it is solved here: the fluxes of initial values do not
+  // balance, and could drain many times the content of a cell.
   const auto is_solved = [&](const Field* field) { return has_row(*field); };
   if (!flow_->has_flowed() && std::ranges::none_of(flow_->fields(), is_solved)) return;
   const FlowRates rates = flow_->rates(has_row, step);

@@ -25,17 +25,17 @@
 
 namespace sprekk::couplers {
 
-/// Adds to the balance of each cell what streams of fluid carry (Stream). With the fluid m that these streams have
-/// brought into the cell since the start (m^2, in space m^3), the cell stores c (m T − m_old T_old), and a stream of
-/// the rate q brings c dt q T_from, with the value T_from where it comes from. For heat T is the temperature and c the
-/// heat capacity of the fluid, for a tracer T is the concentration and c is 1. Together with m = m_old + dt (sum of q)
-/// this is
+/// Adds the transport by streams of fluid (Stream) to the balance of each cell. With the fluid m that these streams
+/// have brought into the cell since the start (m^2, in space m^3), the cell stores c (m T − m_old T_old), and a stream
+/// of the rate q brings c dt q T_from, with the value T_from upstream. For heat T is the temperature and c the heat
+/// capacity of the fluid, for a tracer T is the concentration and c is 1. Together with m = m_old + dt (sum of q) this
+/// is
 ///   c m_old (T − T_old) + c dt (sum over what enters of q (T − T_from)).
 /// With the scheme `limited` a stream between cells has the value T_from + d (LimitedValues): c dt |q| d is added to
-/// this in the cell that it leaves, and subtracted in the one that it enters. So a uniform value stays uniform whatever
-/// the fluxes are, and nothing is lost or made: the amount is conserved in each schedule, also where the streams are
-/// those of a flow that is solved before or after. What has entered by the start of the step decays at the rate of the
-/// cell, c dt r m_old T: a uniform value stays uniform then, too.
+/// the balance of the cell that it leaves, and subtracted from that of the cell that it enters. So a uniform value
+/// stays uniform with any fluxes, and the amount is conserved with each schedule, also if the flow is solved before or
+/// after. What has entered by the start of the step decays at the rate of the cell, c dt r m_old T, which also keeps a
+/// uniform value uniform.
 class Advection : public Coupler,
                   public KeepsState,
                   public FollowsMesh,
@@ -46,7 +46,7 @@ class Advection : public Coupler,
   /// Throws InputError without a flow that carries something, and for wells that the coupler leaves out.
   Advection(const CouplerContext& context, const Carried& carried, const AdvectionOptions& options,
             MatrixCarried* in_rock, FractureCarried* in_fractures);
-  /// What is carried through the walls in a step is the same for both sides.
+  /// Both sides of a wall count the same transport through it in a step.
   std::vector<Dependence> dependences() const override;
   bool allows_stages() const override { return true; }
   std::string need_of_one_clock() const override {
@@ -64,17 +64,17 @@ class Advection : public Coupler,
   void save(std::map<std::string, Vector>& state) const override { flow_->save(state); }
   void restore(const std::map<std::string, Vector>& state) override { flow_->restore(state); }
   void begin_totals() override;
-  /// The capacity of cells is that with the fluid that they have in the settled state.
+  /// The capacity of cells becomes that with the fluid of the settled state.
   void count_amounts_from_here(const SettledFields& settled) override;
   void balance(std::map<std::string, Balance>& balances) const override;
-  /// The value of the fluid that leaves at each named place of the flow, or of that which enters.
+  /// The value of the fluid that leaves or enters at each named place of the flow.
   void report(std::vector<Quantity>& quantities) const override;
   void note_input(Notes& notes) const override;
   void note_step(Notes& notes, const StepTime&) const override;
   std::vector<double> switch_times() const override;
 
  private:
-  /// Gives dispersion, where there is any, by the flow as it was last solved.
+  /// Updates dispersion, if there is any, by the last solution of the flow.
   void disperse(bool in_rock, bool in_fractures);
   StreamSources sources() const;
   /// Adds a note for each side through which fluid without a given value enters.
@@ -83,10 +83,10 @@ class Advection : public Coupler,
   FluidContents contents(const CouplerContext& context, Medium& medium, Location location, const char* where) const {
     return {context, carried_, medium.value(), location, where, options_.per_volume, medium.decay()};
   }
-  /// Looks for fracture cells that hold what is carried in another thickness than their fluid.
+  /// Finds fracture cells in which the carried quantity has another aperture than the fluid; for a note.
   void compare_apertures(const CouplerContext& context);
   void find_wells(const CouplerContext& context);
-  /// The values of what comes into wells from outside, one a well.
+  /// The values of fluid that enters wells from outside, one a well.
   std::vector<std::optional<double>> injected_by_wells() const;
   /// Throws DataError for a value of a place that the flow does not have.
   void check_names() const;
@@ -98,7 +98,7 @@ class Advection : public Coupler,
   /// Adds the balance of all cells of a place.
   void add(Assembly& assembly, const FluidContents& place, const std::vector<Stream>& streams, const Mixtures& wells,
            const StepTime& step) const;
-  /// Counts the fluid, and what it carries, of a solve.
+  /// Counts the fluid, and what it carries, after a solve.
   void count(FluidContents& place, const std::vector<Stream>& streams, const Mixtures& wells, const StepTime& step);
 
   const Mesh& mesh_;
@@ -119,7 +119,7 @@ class Advection : public Coupler,
   double begun_with_ = 0;                                                ///< s: the length of the step
   std::optional<HeldFlow> flow_;
   std::vector<std::pair<std::string, double>> injected_;  ///< values in this step
-  /// Whether dispersion is that of the step before, because the last solve was for the flow as well.
+  /// Whether dispersion is that of the step before, because the last solve included the flow.
   bool disperses_late_ = false;
 };
 

@@ -14,8 +14,8 @@
 namespace sprekk::couplers {
 namespace {
 
-/// Of what a cell holds: fluid that it has gained in steady flow is round-off, a little more with each step. In
-/// derivatives it would ask for another factorization in each step; what is left out there is within the same
+/// Relative to the content of a cell: the fluid that it gains in steady flow is round-off, and grows a little with each
+/// step. In derivatives it would cause a factorization in each step; leaving it out there changes nothing beyond
 /// round-off.
 constexpr double round_off_of_steps = 1e-11;
 

@@ -1,4 +1,4 @@
-// The rates of fluid over a time step, part by part as the flow was solved for.
+// The rates of fluid over a time step, for each substep in which the flow was solved.
 #pragma once
 
 #include <vector>
@@ -15,14 +15,14 @@ struct FluidRates {
   std::vector<FluidSource> sources = {};
 };
 
-/// Rates hold over the time step of the solve that has found them: the whole step, or a substep of it. So what carries
-/// something with the fluid while the flow is held knows which rates belong to its own step or substep.
+/// Rates belong to the time step of the solve that has found them: the whole step, or a substep of it. So transport
+/// that is solved while the flow is held gets the rates of its own step or substep.
 class FlowCourse {
  public:
-  /// To be called after each solve of the flow; `part`: its step. What was found for this time before is forgotten.
+  /// To be called after each solve of the flow; `part`: its step or substep. Earlier rates for this time are dropped.
   void add(const StepTime& part, FluidRates rates);
-  /// The rates in a step: those of the part that it lies in, or the mean over its parts. The values stay until the
-  /// next call of any function. nullptr where the flow has not been solved for any part of it.
+  /// The rates in a step: those of the part that contains it, or the mean over its parts. They are valid until the next
+  /// call of any function. nullptr if the flow has not been solved in any part of it.
   const FluidRates* over(const StepTime& step) const;
   void clear();
 
@@ -31,7 +31,7 @@ class FlowCourse {
     double from, to;  ///< s
     FluidRates rates;
   };
-  /// The length of time that both share, s; 0 where they only touch.
+  /// The overlap of both in time, s; 0 where they only touch.
   static double shared(const Part& part, const StepTime& step);
 
   std::vector<Part> parts_;  ///< without overlaps

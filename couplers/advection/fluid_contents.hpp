@@ -1,4 +1,4 @@
-// What the fluid that has entered and left cells holds.
+// The heat or tracer in the fluid that has entered and left cells.
 #pragma once
 
 #include <string>
@@ -15,16 +15,16 @@ namespace sprekk::couplers {
 class FluidContents {
  public:
   FluidContents() = default;
-  /// `where`: "rock" or "fractures", in names of fields; `per_volume`: what fluid holds per volume and unit of the
-  /// value, J/(m^3 K) or 1; `decay`: 1/s, one a cell, or empty.
+  /// `where`: "rock" or "fractures", in names of fields; `per_volume`: capacity of the fluid per volume, J/(m^3 K), or
+  /// 1; `decay`: 1/s, one a cell, or empty.
   FluidContents(const CouplerContext& context, const Carried& carried, Field& value, Location location,
                 const std::string& where, double per_volume, Vector decay);
 
-  /// Throws DataError where the fluid that has left a cell since the start could hold more than the cell could
-  /// (`capacity`, one a cell): the balance says nothing about the value there.
+  /// Throws DataError if the fluid that has left a cell since the start could hold more than the cell itself
+  /// (`capacity`, one a cell): the balance does not determine the value there.
   void check(const Vector& capacity, const std::string& coupler) const;
-  /// Counts what the streams have carried in the step, each with its value, when the values at the end
-  /// have been found. `capacity`: as above. `base`: what the products add up to whose sum a flux is
+  /// To be called when the values at the end of the step are known: counts what each stream has carried, with its
+  /// value. `capacity`: as above. `base`: the sum of absolute terms of each flux, for its round-off
   /// (MatrixFluxes::round_off_base_of_fluxes).
   void count(const std::vector<Stream>& streams, const std::vector<double>& values, const Vector& capacity, double base,
              double dt);
@@ -32,8 +32,8 @@ class FluidContents {
 
   /// What the fluid that had entered by the start of the step holds, per unit of the value.
   Vector capacity_at_start() const { return per_volume_ * received->accepted(); }
-  /// What that fluid would hold with the value at the start, less what it does hold: 0 but in the second stage of a
-  /// step (TimeScheme::sdirk2), which starts from extrapolated amounts of fluid, of values, and of their products.
+  /// What that fluid would hold with the value at the start, less what it holds. It is 0 except in the second stage of
+  /// a step (TimeScheme::sdirk2), whose start has extrapolated amounts of fluid, values, and products of both.
   Vector not_held_at_start() const;
 
   Field* value = nullptr;

@@ -1,4 +1,4 @@
-// The rates of fluid that carry something, also while the flow is held.
+// The rates of fluid for transport, also while the flow is held.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace sprekk::couplers {
 
-/// The flow whose fluid carries something. Everything may be missing.
+/// The flow for transport. Each member may be missing.
 struct CarryingFlow {
   const MatrixFluxes* matrix = nullptr;  ///< if something is carried in the rock
   const Field* pressure_in_rock = nullptr;
@@ -24,22 +24,21 @@ struct CarryingFlow {
   const WellPressures* wells = nullptr;
 };
 
-/// Rates of a flow that is solved together with what it carries are the present ones. While the flow is held, they are
-/// those with which it was solved for the time of the step (FlowCourse), or, where it was not yet, those of its last
-/// solve. They are not found anew from the held pressures: with the data of a new step (another viscosity, another
-/// prescribed pressure) these would give fluxes that do not balance, and cells would gain or lose many times the fluid
-/// that they hold.
+/// If the flow is solved together with the transport, its rates are the present ones. If it is held, they are those of
+/// its solution for the time of the step (FlowCourse), or, if there is none yet, of its last solution. They are not
+/// computed again from the held pressures: with the data of a new step (another viscosity or prescribed pressure) these
+/// give fluxes that do not balance, and cells would gain or lose many times their fluid.
 class HeldFlow {
  public:
   HeldFlow(const CouplerContext& context, const CarryingFlow& flow);
 
-  /// The fields from which rates follow.
+  /// The fields on which rates depend.
   std::vector<const Field*> fields() const;
-  /// Whether the flow has been solved for at all: the fluxes of initial values are no flow.
+  /// Whether the flow has been solved at all; the fluxes of initial values do not count.
   bool has_flowed() const { return has_flowed_; }
-  /// Whether the flow has been solved for before the run began.
+  /// Whether the flow was solved before the run began (for a settled start).
   void begin(bool with_flow) { has_flowed_ = had_flowed_ = with_flow; }
-  /// Whether a field is solved for together with what is carried.
+  /// Whether a field is solved for together with the transport.
   using IsSolved = std::function<bool(const Field&)>;
   /// To be called after each solve.
   void take(const IsSolved& is_solved, const StepTime& step);
@@ -49,7 +48,7 @@ class HeldFlow {
   /// Part::begin_step of all parts.
   Vector fluxes_in_rock(const IsSolved& is_solved, const StepTime& step) const;
 
-  /// The same as the flow was last solved; nullptr where it was not on this mesh.
+  /// The same at the last solution of the flow; nullptr if there is none on this mesh.
   const Vector* last_fluxes_in_rock() const { return is_taken_ ? &flux_->now() : nullptr; }
 
   /// On another mesh fluxes are those of the pressures that have been found there, until the flow is solved again.
@@ -60,7 +59,7 @@ class HeldFlow {
   void restore(const std::map<std::string, Vector>& state);
 
  private:
-  /// nullptr where nothing passes the walls, which is known when all couplers have been built.
+  /// nullptr if nothing passes the walls; known when all couplers have been built.
   const Field* wall_flux() const;
 
   const Mesh* mesh_;

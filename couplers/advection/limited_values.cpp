@@ -14,8 +14,8 @@ namespace {
 // Smallest over largest eigenvalue of the moments of directions to neighbours (1 where these lie evenly around).
 constexpr double hardly_apart = 1e-2;  // below it more neighbours are taken
 
-// Of the rise and the fall around a cell of a fracture (minmod in a row of equal cells): where fluid passes many cells
-// in a step, Newton's method does not always converge with the whole.
+// The part of the rise and the fall around a fracture cell that a change may have (minmod in a row of equal cells).
+// Where fluid passes many cells in a step, Newton's method does not always converge with the whole of it.
 constexpr double part_in_fractures = 0.5;
 
 /// The moments of the directions from a cell to what is around it.

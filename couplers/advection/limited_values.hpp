@@ -12,17 +12,16 @@ namespace sprekk::couplers {
 
 /// By how much the value at a face, or a ridge, differs from that of the cell whose fluid passes it. The gradient of a
 /// cell fits the values of its neighbours, and those that are prescribed on its sides, by least squares: it is exact
-/// for linear values. The change from the centre to the face is at most what the highest value around the cell is
-/// above its own, and at most what the lowest is below it (in a row of cells this is the limiter MC of van Leer 1977).
-/// So a cell higher or lower than all around has no gradient, and no face has a value beyond those around the cell.
-/// Fluid that leaves the highest of all cells has its value, and none that enters has a higher one: steps of backward
-/// Euler make no new extrema, however long they are.
+/// for linear values. The change from the centre to the face is bounded by the difference from the highest and from the
+/// lowest value around the cell (in a row of cells this is the limiter MC of van Leer 1977). So a cell that is a local
+/// extremum has no gradient, and the values at faces stay within those around the cell. Fluid leaves the highest of all
+/// cells with the value of this cell and enters with a lower one: steps of backward Euler of any length make no new
+/// extrema.
 ///
-/// In rock, where more flows out of a cell in a step than it holds, changes are multiplied by what it holds over what
-/// flows out (`weights`). There a front passes several cells in a step, and backward Euler smears it farther than
-/// upwinding does: changes in full would only keep Newton's method from converging. In fractures fluid may pass many
-/// cells in a step while the rock takes up what it carries, and profiles are nearly steady: changes count in full, and
-/// have half the limits.
+/// In rock, if more fluid flows out of a cell in a step than it holds, changes are multiplied by the ratio of both
+/// (`weights`): a front then passes several cells in a step, backward Euler smears it farther than upwinding does, and
+/// full changes would only hinder Newton's method. In fractures fluid may pass many cells in a step while the rock
+/// takes up what it carries, and profiles are nearly steady: changes count in full, with half the limits.
 class LimitedValues {
  public:
   /// In the rock. Neighbours do not lie behind fractures.
@@ -46,9 +45,9 @@ class LimitedValues {
   Change of(const Stream& stream, const Vector& values, const Vector& weights) const;
 
  private:
-  /// A value from which a gradient follows: of a cell, or of a face or ridge on a side.
+  /// A value to which a gradient is fitted: of a cell, or of a face or ridge on a side.
   struct Link {
-    int cell, side;                  ///< one of them is none
+    int cell, side;                  ///< exactly one is not none
     Point where;                     ///< seen from the centre of the cell, m
     Point gradient = Point::Zero();  ///< by the difference of this value from that of the cell, 1/m
   };

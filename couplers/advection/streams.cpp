@@ -43,8 +43,8 @@ void append_walls(const StreamSources& sources, const Vector& rates, double sign
   }
 }
 
-/// The streams of sources. What a shared one takes from cells with shares of the other sign mixes with what comes from
-/// outside, as in a well, and enters the others.
+/// The streams of sources. A source whose shares have both signs takes fluid from some cells; this mixes with the fluid
+/// from outside, as in a well, and enters the other cells.
 void append_sources(const StreamSources& sources, const std::vector<FluidSource>& given, Stream::From inside,
                     std::vector<Stream>& streams) {
   const auto is_here = [&](int cell) {
@@ -88,9 +88,9 @@ void append_wells(const StreamSources& sources, const Vector& rates, const Field
   }
 }
 
-/// The streams between the cells at a junction. Ridges have fluxes between pairs of cells, whose drops of pressure they
-/// follow; a cell of a pressure in between would take from some and give to others what never enters it. So what a cell
-/// gives, q > 0, or takes, q < 0, is its sum, and cell i gives q_i (−q_j)/S to cell j, with S all that is given.
+/// The streams between the cells at a junction. Ridges have fluxes between pairs of cells by the drops of pressure; a
+/// cell with an intermediate pressure would pass on fluid that never enters it. So only the net outflow q of each cell
+/// counts (inflow: q < 0), and cell i gives q_i (−q_j)/S to cell j, with S the sum of all outflows.
 void append_junction(const Mesh& mesh, const Junction& junction, const Vector& fluxes, std::vector<Stream>& streams) {
   std::map<int, double> given;
   for (const int ridge : junction.ridges) {

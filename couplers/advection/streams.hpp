@@ -15,15 +15,15 @@ namespace sprekk::couplers {
 
 /// Fluid that enters a cell, or with a negative rate leaves it.
 struct Stream {
-  /// own: the value (temperature, concentration) of the cell itself, where no other one is known.
+  /// own: the cell itself, where no other value (temperature, concentration) is known.
   enum class From { own, rock_cell, fracture_cell, given, well };
-  /// What the rate is a multiple of: the flux through a face, a wall, a ridge, the rate of a well at a place,
-  /// or nothing that is solved for.
+  /// The unknown of which the rate is a multiple: the flux through a face, a wall or a ridge, the rate of a well at a
+  /// place, or none.
   enum class Flux { face, wall, ridge, well, none };
   int cell;
   double rate;  ///< m^2/s (in space m^3/s)
   From from;
-  int index = none;         ///< of the cell or of the well that it comes from
+  int index = none;         ///< of the cell or well of its origin
   double value = 0;         ///< where it is given
   bool is_outside = false;  ///< whether it comes from or goes to outside of rock and fractures
   Flux flux = Flux::none;
@@ -41,7 +41,7 @@ struct FlowRates {
   std::vector<FluidSource> sources_in_rock = {}, sources_in_fractures = {};
 };
 
-/// What the streams are found from. Everything but the mesh may be missing.
+/// The input for finding streams. Everything but the mesh may be missing.
 struct StreamSources {
   const Mesh& mesh;
   const FractureFluxes* fracture = nullptr;
@@ -50,8 +50,8 @@ struct StreamSources {
   const WellPressures* wells = nullptr;
   const Field* rock_pressure = nullptr;      ///< of the flow in the matrix
   const Field* fracture_pressure = nullptr;  ///< of the flow in the fractures
-  /// The value of entering fluid for which the scene gives none; without it, such fluid has the value of the cell that
-  /// it enters.
+  /// The value of entering fluid for which the scene gives no other; without this one it is the value of the cell that
+  /// the fluid enters.
   std::optional<double> unknown = {};
   /// The values of fluid that enters at named places (of injection, wells), by name.
   std::vector<std::pair<std::string, double>> injected = {};

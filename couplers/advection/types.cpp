@@ -7,7 +7,7 @@
 namespace sprekk::couplers {
 namespace {
 
-/// Notes components that stand between no such coupler. `Matrix`, `Fracture`: the capabilities of what is carried.
+/// Adds notes on components that no such coupler joins. `Matrix`, `Fracture`: the capabilities of the carried quantity.
 template <class Matrix, class Fracture>
 void note_not_carried(const Carried& carried, const std::vector<Component*>& components, Notes& notes) {
   const std::string coupler = carried.quantity + "_advection";

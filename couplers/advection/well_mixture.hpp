@@ -1,4 +1,4 @@
-// The fluid in wells, whose value (temperature, concentration) is that of what flows in.
+// The value (temperature, concentration) of the fluid in wells: a mixture of what flows in.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace sprekk::couplers {
 
-/// The cells of the rock, or of the fractures, where a value is known (pointers are empty where there is none).
+/// The value in cells of the rock, or of fractures; null pointers if there is none.
 struct ValuesOfCells {
   const Field* pressure = nullptr;  ///< of the flow there
   const Field* value = nullptr;
@@ -21,7 +21,7 @@ struct ValuesOfCells {
 /// The fluid in a well, which is mixed and stores nothing. It flows in at some of its places, with the values T_k
 /// of the cells there, and with a net rate Q = sum of q_k > 0 from outside with T_given:
 ///   T = (sum over q_k < 0 of −q_k T_k + max(Q, 0) T_given)/(sum over q_k < 0 of −q_k + max(Q, 0)).
-/// It leaves with T, at other places and to the outside.
+/// The fluid leaves the well with T, at other places and to the outside.
 struct WellMixture {
   /// The derivative by the rate at a place (for heat K s/m^2, in space K s/m^3), or by the value of a cell.
   struct Derivative {
@@ -42,8 +42,8 @@ struct ValuesOfWells {
   std::vector<std::optional<double>> injected;  ///< of what comes from outside, one a well
 
   bool is_known(const AroundWell& around) const;
-  /// One a well; empty for a well that is open to nothing whose value is known. `rates`: out of the well at each
-  /// place, m^2/s (in space m^3/s).
+  /// One mixture a well; empty for a well that is open to no cell with a value. `rates`: out of the well at each place,
+  /// m^2/s (in space m^3/s).
   Mixtures mixtures(const Vector& rates) const;
   /// Throws DataError where the fluid that a well brings has no value. `coupler`: its name.
   void check(const std::string& coupler) const;

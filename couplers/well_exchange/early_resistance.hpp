@@ -14,11 +14,11 @@ constexpr int early_terms = 12;
 
 /// The difference of the pressures of a well and of the cells at its point after a rate q has begun at the time 0:
 ///   p_well − p_cell = q/(2 pi sqrt(det M)) (ln(r_e/r_w) + sum over k of weight_k exp(−c t/scale_k)),
-/// with the diffusivity c in the metric of rho (WellPatch). A mesh does not resolve a flow that has not left the cell
-/// of the well, so that its pressure with the steady index alone is late by about h^2/(8 c) on squares. The terms
-/// replace what the mesh gives its cell by the answer of a bore hole in infinite rock, K_0(x)/(x K_1(x)), x = r_w
-/// sqrt(s/c) for the transform at s (van Everdingen and Hurst 1949); Blanc et al. (1999) do the same with tables. They
-/// are a fit of least squares to the transforms, and vanish when the flow is steady.
+/// with the diffusivity c in the metric of rho (WellPatch). A mesh does not resolve the flow within the cell of the
+/// well: with the steady index alone the pressure is late by about h^2/(8 c) on squares. The terms replace the response
+/// of the cell on the mesh by that of a bore hole in infinite rock, K_0(x)/(x K_1(x)), x = r_w sqrt(s/c) for the
+/// transform at s (van Everdingen and Hurst 1949); Blanc et al. (1999) do the same with tables. They are a fit of least
+/// squares to the transforms, and vanish when the flow is steady.
 struct EarlyResistance {
   double log_of_radii = 0;                    ///< ln(r_e/r_w)
   std::array<double, early_terms> weights{};  ///< 1

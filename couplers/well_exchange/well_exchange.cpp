@@ -233,7 +233,8 @@ class WellExchange : public Coupler, public FollowsMesh {
     if (places_[place].fracture) return fracture_weight_ ? fracture_weight_->weight_between(from, to) : 0;
     return rock_weight_ ? rock_weight_->weight_between(from, to) : 0;
   }
-  /// Where the pressure around a place is that of the flow: in rock the mean place of the cells that share its rate.
+  /// The point for the pressure around a place: in rock the mean of the centres of cells, weighted by their shares of
+  /// the rate.
   Point middle(int place) const {
     if (places_[place].fracture) return fracture_->point_at(cells_[place], places_[place].at);
     Point mean = Point::Zero();

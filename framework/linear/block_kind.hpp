@@ -1,5 +1,5 @@
-// What linear solvers know of the equations of one field. Solvers know no physics; the declaration of each field gives
-// the kind.
+// The kind of the equations of one field, for linear solvers, which know no physics. The declaration of each field
+// gives it.
 #pragma once
 
 namespace sprekk {

@@ -21,10 +21,10 @@ struct CondensedEigenpair {
   Vector vector;
 };
 
-/// The negative real eigenvalue of M nearest to zero; nothing where there is none, or where it is not certain that
-/// there is one. `solver` has factorized A, whose rows on this process are `rows`. Since M^-1 = X^T A^-1 diag(factor),
-/// with X the unit columns of the unknowns, eigenvalues nearest to zero are the largest ones of M^-1, which Arnoldi's
-/// method finds with a back-solve each (at most 40). Collective.
+/// The negative real eigenvalue of M nearest to zero; nothing if there is none, or if this is not certain. `solver` has
+/// factorized A, whose rows on this process are `rows`. Since M^-1 = X^T A^-1 diag(factor), with X the unit columns of
+/// the unknowns, eigenvalues nearest to zero are the largest ones of M^-1, which Arnoldi's method finds with a
+/// back-solve each (at most 40). Collective.
 std::optional<CondensedEigenpair> negative_eigenpair(LinearSolver& solver, const std::vector<int>& rows, int size,
                                                      const CondensedUnknowns& unknowns);
 

@@ -1,4 +1,4 @@
-// What every solver expects of the systems that it gets.
+// Checks of the systems that solvers get.
 #pragma once
 
 #include "framework/invariants.hpp"

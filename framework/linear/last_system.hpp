@@ -8,12 +8,12 @@
 
 namespace sprekk {
 
-/// How much of a system is new: nothing, its values, or its sparsity pattern (and so its values).
+/// What has changed since the last system: nothing, the values, or the sparsity pattern (and so the values).
 enum class Change { nothing, values, pattern };
 
-/// A number for LinearSystem::number by a caller who has compared the system with those before: of two systems with the
-/// same pattern number, not 0, and different numbers of this kind the values differ. Solvers then need no copy to
-/// compare the next system with.
+/// A number for LinearSystem::number from a caller that has compared the system with earlier ones: if two systems have
+/// the same pattern number, not 0, and different numbers of this kind, their values differ. So solvers need no copy of
+/// a system to compare the next one with.
 std::uint64_t new_telling_number();
 
 /// Whether two systems have entries at the same places on this process; and whether these have the same bits.

@@ -152,14 +152,14 @@ struct LinearOptions {
   double tolerance = 1e-10;   ///< relative residual of iterative methods: as the direct solvers' `acceptable`
   int max_iterations = 500;   ///< five restarts of the longest kind
   bool condense = true;       ///< direct solvers: factorize the bulk once, and then only its Schur complement
-  /// Whether the bulk changes after a few systems, as where the mesh changes with the steps. Then a quick factorization
-  /// counts for more than quick back-solves.
+  /// Whether the bulk changes after a few systems, as where the mesh changes with the steps. Then the time of
+  /// factorizations matters more than that of back-solves.
   bool bulk_changes_often = false;
   /// Unknowns up to which `auto` takes a direct solver. In a plane memory is the limit. In space factors fill far more:
   /// one of 50,000 unknowns takes as long as 60 solves by GMRES, and ten times as many are out of reach.
   int largest_for_direct = 600'000;
-  /// Unknowns up to which `auto` solves a system directly after all, where GMRES does not converge. In a plane there
-  /// are none beyond `largest_for_direct`: memory is the limit.
+  /// Unknowns up to which `auto` solves a system directly if GMRES does not converge. In a plane there is no size
+  /// beyond `largest_for_direct`: memory is the limit.
   int largest_for_direct_instead = 0;
   CondensingCosts condensing = {};
 };

@@ -60,11 +60,13 @@ void note_pockets(const Mesh& mesh, Notes& notes) {
   std::erase_if(small, [](const Pocket& pocket) { return pocket.cells >= few_cells; });
   if (small.empty()) return;
   const Pocket& worst = small.front();
-  notes.add("small pocket between fractures",
-            fmt::format("fractures {} enclose {:.2g} {} with {} cells at {}{} (values hardly vary in so few) lower "
-                        "mesh.fracture_size or the size of these fractures, or move one of them",
-                        names_of(mesh, worst.fractures), worst.measure, volume_unit, worst.cells, to_text(worst.center),
-                        others(small.size() - 1, "pockets have few")));
+  notes.add(
+      "small pocket between fractures",
+      fmt::format(
+          "fractures {} enclose {:.2g} {} with {} cells at {}{} (so few do not resolve how values vary there) lower "
+          "mesh.fracture_size or the size of these fractures, or move one of them",
+          names_of(mesh, worst.fractures), worst.measure, volume_unit, worst.cells, to_text(worst.center),
+          others(small.size() - 1, "pockets have few")));
 }
 
 /// Notes regions without a cell: their values have no effect.
@@ -159,9 +161,10 @@ Notes start_notes(const Model& model, const MeshQuality& quality, long unknowns)
   if (parallel::size() > 1 && unknowns < worth_sharing)
     notes.add(
         "too few unknowns for several processes",
-        fmt::format("the run shares {} unknowns among {} processes, which as a rule takes longer than one alone (below "
-                    "about {} each is as busy as one would be, and waits for the others) start it without mpirun",
-                    unknowns, parallel::size(), worth_sharing));
+        fmt::format(
+            "the run shares {} unknowns among {} processes, which as a rule takes longer than one alone (below about "
+            "{} each process does as much work as one alone would, and waits for the others) start it without mpirun",
+            unknowns, parallel::size(), worth_sharing));
   return notes;
 }
 

@@ -13,7 +13,7 @@
 
 namespace sprekk {
 
-/// What a component is built from, besides its parameters, which have been read before.
+/// The input for building a component, besides its parameters, which have been read before.
 struct ComponentContext {
   std::string name;  ///< in the scene
   const Mesh& mesh;
@@ -22,8 +22,8 @@ struct ComponentContext {
   Origin origin;      ///< of the component in the scene
 };
 
-/// A part that owns unknown fields and the balance laws that determine them. Its capabilities are abstract classes that
-/// it also derives from (components/capabilities): they say what couplers can ask of it.
+/// A part that owns unknown fields and the balance laws that determine them. It also derives from abstract classes, its
+/// capabilities (components/capabilities), by which couplers use it.
 class Component : public Part {
  public:
   explicit Component(std::string name) : name_(std::move(name)) {}
@@ -33,7 +33,7 @@ class Component : public Part {
   std::string name_;
 };
 
-/// What a coupler is built from: the components that it stands between, asked for by capability.
+/// The input for building a coupler: the components that it couples, which it asks for by capability.
 class CouplerContext {
  public:
   /// `between`: the components that the coupler stands between; `scene`: all components of the scene.

@@ -1,4 +1,4 @@
-// Sets of fractures that a component lives on.
+// Sets of fractures on which a component has values.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace sprekk {
 
 /// One flag a fracture cell: whether its fracture has one of these names; `joints_*` stands for all names that begin
-/// with `joints_`. What has grown belongs to the fracture that it continues. Empty where the set has all fractures, as
+/// with `joints_`. Grown cells belong to the fracture that they continue. Empty where the set has all fractures, as
 /// with empty `names`. Throws InputError at `origin` for a name that no fracture has.
 std::vector<char> fracture_set(const Mesh& mesh, const std::vector<std::string>& names, const Origin& origin);
 

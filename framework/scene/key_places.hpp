@@ -23,11 +23,11 @@ class KeyPlaces {
   std::string text(const std::string& key) const;
 
  private:
-  /// Adds the keys of a map, of which messages speak as `name`: "'output'", "a component role/name".
+  /// Adds the keys of a map, which messages call `name`: "'output'", "a component role/name".
   void add(const Spec& spec, const std::string& name, const std::string& path, int rank);
   void add_key(const std::string& key, const std::string& place, int rank);
 
-  /// For each key the places of each rank: what the scene has, then what it may have.
+  /// For each key the places, by rank: first what the scene has, then what it may have.
   std::map<std::string, std::map<int, std::vector<std::string>>> places_;
 };
 

@@ -1,4 +1,4 @@
-// Which kinds of laws there are, for commands that list them.
+// The kinds of laws, for commands that list them.
 #pragma once
 
 #include <string>

@@ -15,10 +15,10 @@ struct StepAmounts {
   double round_off = 0;  ///< of the numbers whose differences these amounts are
 };
 
-/// "" or, where a balance is off in a step by more than `tolerance` times what was moved and by more than round-off, a
-/// sentence that says so. This sum is independent of the residuals by which solvers judge themselves: it is made from
-/// what parts have counted. `before`, `after`: the totals at the start and at the end of the step. `amounts_of` is
-/// called for balances whose totals alone do not show that they hold. Collective.
+/// A sentence on a balance that is off in the step by more than `tolerance` times the moved amount and more than
+/// round-off; "" if all balances hold. The balance is made from the amounts that parts have counted, so it is
+/// independent of the residuals that solvers check. `before`, `after`: the totals at the start and at the end of the
+/// step. `amounts_of` is called for balances whose totals alone do not show that they hold. Collective.
 std::string find_lost_amounts(const std::map<std::string, Balance>& before, const std::map<std::string, Balance>& after,
                               double tolerance, const std::function<StepAmounts(const std::string&)>& amounts_of);
 

@@ -114,8 +114,8 @@ Model::Model(const Scene& scene, Mesh mesh, IterationLog log) : scene_(scene), m
 
 namespace {
 
-/// Values on which decisions of a run depend must be the same on all processes. If code used values that are right only
-/// on the owner of an entity, processes would go on with different steps and give a wrong answer, or hang.
+/// Values on which decisions of a run depend must be the same on all processes. With values that are right only on the
+/// owner of an entity, processes would take different steps, and give a wrong answer or hang.
 void require_agreement(const std::string& what, const std::vector<double>& values) {
   if (!parallel::is_same_everywhere(values))
     throw std::logic_error("processes differ in " + what +

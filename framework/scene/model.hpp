@@ -14,8 +14,8 @@
 
 namespace sprekk {
 
-/// Owns all that a scene is built into, and attempts single time steps. The accepted state is the point to which a
-/// failed step rewinds.
+/// Owns everything that is built from a scene, and attempts single time steps. A failed step rewinds to the accepted
+/// state.
 class Model {
  public:
   /// Builds everything and solves nothing. Throws InputError for combinations that cannot work: a missing capability,
@@ -39,7 +39,8 @@ class Model {
 
   /// Evaluates the data of a step and updates all discretizations, as `attempt` does first. Throws DataError.
   void prepare(const StepTime& step);
-  /// Prepares the first step, and throws InputError where nothing holds some balances of its equations. Collective.
+  /// Prepares the first step, and throws InputError if nothing determines the constant mode of some of its balances.
+  /// Collective.
   void require_held();
   /// Attempts one step from the accepted state: prepares it and runs the schedule. If the step converges, the current
   /// values are those at its end. The caller accepts or rewinds. Throws DataError.
@@ -71,10 +72,10 @@ class Model {
   /// The solve of `start: settle`, where the scene has one.
   void build_settling(const ScheduleContext& context);
   void note_start();
-  /// Makes the present state the reference of all unknowns and amounts that are changes.
+  /// Makes the present state the reference from which changes and amounts are counted.
   void count_from_here(const SettledFields& settled);
   void check_outputs() const;
-  /// Sets values to NaN where a component does not live (LivesInPart).
+  /// Sets values to NaN where a component has none (LivesInPart).
   void hide_uninhabited(std::vector<OutputField>& fields) const;
   void check_determined() const;
   void check_stages() const;

@@ -1,4 +1,4 @@
-// Where the values of a component's or a coupler's properties hold.
+// The cells for which properties of a component or a coupler have values.
 #pragma once
 
 #include <memory>

@@ -14,8 +14,8 @@ namespace sprekk {
 /// flag each; empty for all.
 const std::vector<char>& cells_with_values(const ProbeOptions& probe,
                                            const std::vector<std::unique_ptr<Component>>& components);
-/// Refuses a probe at a place where the component that it measures has no value, because the component lives in a part
-/// of the mesh alone (LivesInPart). A probe that names no place measures where there are values. Throws InputError.
+/// Refuses a probe at a place where the component that it measures has no value, because the component has values in a
+/// part of the mesh only (LivesInPart). A probe that names no place measures where there are values. Throws InputError.
 void require_values_at_probes(const OutputOptions& options, const std::vector<std::unique_ptr<Component>>& components,
                               const Mesh& mesh);
 /// Refuses a probe with the name of another column of history.csv: readers find columns by their names. `probes`: in

@@ -8,8 +8,8 @@
 
 namespace sprekk {
 
-/// Throws InputError where a part needs a program that the user has not named, or the user has named one for a
-/// component that is none.
+/// Throws InputError if the user has not named a program that a part needs, or has named one for a component that needs
+/// none.
 void require_programs(const std::vector<Part*>& parts);
 
 /// Throws InputError for scenes in which a program cannot take part.

@@ -23,7 +23,8 @@ struct PartType {
   std::string type;
   std::function<Spec()> spec;  ///< with its defaults, for `explain` and the schema
   std::function<Builder(const Node&, const ReadContext&)> read;
-  /// For a type of coupler that a scene does not use: adds notes on what the user may miss between these components.
+  /// For a type of coupler that a scene does not use: adds notes if the user may have forgotten it between these
+  /// components.
   std::function<void(const std::vector<Component*>&, Notes&)> note_absence;
 };
 using ComponentType = PartType<ComponentBuilder>;

@@ -72,8 +72,8 @@ struct Scene {
   const Origin& schedule_origin() const { return whole.find("schedule")->origin; }
 };
 
-/// Reads the tree of a scene. Tables are looked for in `folder`; `default_name` is the name of a scene without one.
-/// Throws InputError for all that can be found to be wrong before there is a mesh.
+/// Reads the tree of a scene. Files of tables are in `folder`; `default_name` is the name of a scene without one.
+/// Throws InputError for every mistake that can be found without a mesh.
 Scene read_scene(const Node& whole, const std::string& folder, const std::string& default_name = "scene");
 
 /// The specs of a scene's sections, by key, with their defaults; for `explain` and the schema.

@@ -1,4 +1,5 @@
-// Of which dimension a scene is. Each program is for one; a scene of another one is handed over to the program for it.
+// The dimension of a scene. Each program is for one dimension; a scene of the other one is handed over to the other
+// program.
 #pragma once
 
 #include <string>

@@ -251,8 +251,8 @@ void note_unusual_values(const std::vector<PropertyValue>& properties, Notes& no
     const std::string range = usual_text(property.usual, property.unit);
     if (may_have_no_dimensions && has_dimension)
       notes.add("scene without dimensions",
-                fmt::format("{}: the scene is taken for one without dimensions (all its properties are of order one, "
-                            "such as {} = {}, which as a rule is {}) check the units, if it has dimensions",
+                fmt::format("{}: the scene is treated as one without dimensions (all its properties are of order one, "
+                            "such as {} = {}, which as a rule is {}) check the units, if that is not meant",
                             property.where.text(), quoted(property.name), quoted(property.text), range));
     else
       notes.add("unusual " + property.name + " at " + property.where.text(),

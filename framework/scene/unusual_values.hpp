@@ -1,4 +1,4 @@
-// Notes on values that a property does not have as a rule: a slip in a unit, or in a power of ten.
+// Notes on unusual values of properties, which may come from a wrong unit or power of ten.
 #pragma once
 
 #include <string>
@@ -27,9 +27,8 @@ struct PropertyValue {
 /// and at the end of the time in which it holds.
 std::vector<PropertyValue> properties_of(const Scene& scene, const PlacesOfParts& places);
 
-/// Adds a note for each value outside of its range. Where all values are of order one, except for widths and
-/// transmissivities of fractures, such a scene is treated as one without dimensions, and has a single note on those
-/// with a unit.
+/// Adds a note for each value outside of its range. If all values are of order one, except for widths and
+/// transmissivities of fractures, the scene is treated as dimensionless, and gets a single note on those with a unit.
 void note_unusual_values(const std::vector<PropertyValue>& properties, Notes& notes);
 
 /// Other units of the number in "40 Pa" with which it would be in the usual range: "40 MPa", "40 GPa"; none for an

@@ -272,8 +272,8 @@ const Node* growth_within_step(const Node& steps) {
   return nullptr;
 }
 
-/// What stands behind a step and changes the state at the end of the time step, or nullptr. Of several `when` one may
-/// hold at a time; that is up to the scene.
+/// The step behind another one that changes the state at the end of the time step, or nullptr. Several `when` are
+/// allowed, since only one of them may hold at a time.
 const char* what_follows(const std::vector<Node>& steps, std::size_t step) {
   for (std::size_t k = step + 1; k < steps.size(); ++k)
     for (const char* key : {"solve", "grow"})

@@ -18,7 +18,7 @@ namespace sprekk {
 struct CriterionOptions {
   std::optional<double> residual, relative;
   std::optional<std::string> change_of, residual_of, absolute;
-  /// The bound of the residual, of all equations or of one; nothing for a condition on changes.
+  /// The bound of the residual of all equations or of one; empty for a condition on changes.
   std::optional<double> of_residual() const { return residual_of ? relative : residual; }
   Origin origin, field_origin, absolute_origin;
   Spec spec();
@@ -31,7 +31,7 @@ struct UntilOptions {
   int at_most = 60, at_least = 1;
   std::list<CriterionOptions> all, any;
   Spec spec();
-  /// The smallest bound of the residual that is asked for; `relative` where none is.
+  /// The smallest bound of the residual among the conditions; `relative` if there is none.
   double tightest() const;
   /// The largest bound of the residual with which an iteration may end; only where `bounds_residual`.
   double loosest() const;

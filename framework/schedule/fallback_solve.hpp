@@ -1,4 +1,4 @@
-// What an iteration does when its passes fail: it solves for all of its unknowns together.
+// The fallback of an iteration whose passes fail: it solves for all of its unknowns together.
 #pragma once
 
 #include <memory>
@@ -11,16 +11,15 @@
 
 namespace sprekk {
 
-/// Solves for all unknowns of an iteration at once, by Newton's method, where passes have not converged. Converged
-/// passes would have given the same answer. The user is told: a note says why and in how many steps, and coupling.csv
-/// has the iterations under "fallback".
+/// Solves for all unknowns of an iteration at once by Newton's method, after passes have not converged. The answer is
+/// that of converged passes. A note says why and in how many steps, and coupling.csv has the iterations under
+/// "fallback".
 class FallbackSolve {
  public:
   FallbackSolve(std::vector<Field*> unknowns, const NewtonOptions& newton, const LinearOptions& linear,
                 const ScheduleContext& context);
 
-  /// To be called when the iteration begins a time step. Forgets what earlier attempts at this step and at later ones
-  /// have shown.
+  /// To be called when the iteration begins a time step. Forgets earlier attempts at this step and later ones.
   void begin(const StepTime& step);
   /// Solves, from the values that the unknowns had at begin(). `failed`: the status with which the passes have ended;
   /// the result counts their iterations, too.

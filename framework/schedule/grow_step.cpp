@@ -138,8 +138,8 @@ StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, do
       refusal_->load > now && now > before) {
     const double shortening = std::log(refusal_->dt / step.dt);
     const double power = std::log((refusal_->load - before) / (now - before)) / shortening;
-    // Two refusals tell the power. Slower than with the slowest, loads rise like the logarithm of time, as the pressure
-    // at a well does, or level off.
+    // Two refusals determine the exponent. Loads that rise more slowly than with the smallest one rise like the
+    // logarithm of time, as the pressure at a well, or level off.
     part = power < slowest ? std::max(least_by_logarithm,
                                       std::exp((wanted - 1) * (now - before) * shortening / (refusal_->load - now)))
                            : std::pow(wanted, 1 / std::min(power, at_constant_rate));
@@ -190,7 +190,7 @@ StepStatus GrowStep::look_and_grow(const StepTime& step) {
   if (load_.now <= 1) return {true, "", 0};
   now_doing("growing");
   Growing::Growth growth = growing_->grow(step);
-  // Growth that does not arrest begins as soon as the load is reached, so smaller steps have nothing to resolve.
+  // Unstable growth begins as soon as the load is reached, so smaller steps resolve nothing more.
   if (!growth.arrested && load_.now > 1 + later && may_shrink(step))
     return refused("tips grow further than the mesh can follow in one step", step, load_.accepted, load_.now, later);
   extensions_ = std::move(growth.extensions);

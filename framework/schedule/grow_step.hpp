@@ -21,17 +21,17 @@ struct GrowOptions {
   int passes = 20;           ///< of repeat_step
   double cut = 1e-2;         ///< size of the steps after a growth event, over the standard step
   double settled = 1e-2;     ///< relative change over a step at and below which the standard step returns
-  double overshoot = 0.02;   ///< of the load of growth: by how much a step may pass it that is not repeated shorter
+  double overshoot = 0.02;   ///< relative excess of the load of growth above which a step is repeated shorter
   Origin origin;
   NewtonOptions newton;
   LinearOptions linear;
   Spec spec();
 };
 
-/// Asks the component for the load of its tips, and lets them grow. Growth starts when it is due: a step at whose end
-/// the load of a tip that has not grown yet is above 1 + overshoot is refused, with the step size at whose end the load
-/// is expected to be 1 + overshoot/2. A step in which tips grow further than the mesh can follow is refused as well. No
-/// step is cut below `cut` of the standard step. extensions() has the paths that the mesh is to take over; the run
+/// Asks the component for the load of its tips, and lets them grow. So that growth starts at its load, a step after
+/// which the load of a tip that has not grown yet is above 1 + overshoot is refused, with a step size after which the
+/// load is expected to be 1 + overshoot/2. A step in which tips grow further than the mesh can follow is refused, too.
+/// No step is cut below `cut` of the standard step. extensions() has the paths that the mesh is to take over; the run
 /// changes the mesh between two attempts.
 class GrowStep : public ScheduleStep {
  public:
@@ -50,7 +50,7 @@ class GrowStep : public ScheduleStep {
   /// In which steps tips grow with the state held, as with after_step, although growth belongs to the steps.
   enum class Holding {
     never,
-    if_far_above,  ///< in a step that may not shrink, where tips are far above the load of growth
+    if_far_above,  ///< in a step that may not shrink, if tips are far above the load of growth
     always
   };
   void choose(Holding holding) { holding_ = holding; }
@@ -58,7 +58,7 @@ class GrowStep : public ScheduleStep {
   /// For trials of a search for growth within the step: run() only examines the tips that are searched for. All other
   /// tips grow once the right trial has been found.
   void examine_followed_only(bool only) { followed_only_ = only; }
-  /// While it `rests`, run() does nothing, and the results of the last attempt stay.
+  /// While it `rests`, run() does nothing and keeps the results of the last attempt.
   void rest(bool rests) { rests_ = rests; }
   /// Whether the step was run in an attempt at this time step: a `when` may leave it out.
   bool was_run(const StepTime& step) const { return last_ && last_->start == step.start && last_->dt == step.dt; }
@@ -69,13 +69,14 @@ class GrowStep : public ScheduleStep {
   CavityOptions cavity() const { return growing_->cavity(); }
   /// Whether the state at the tips still changes after a growth event.
   bool is_unsettled() const { return load_.unsettled > options_.settled; }
-  /// Whether growth in the last attempt is at its end, and has settled: no tip that grew was above the load of growth
-  /// by more than the overshoot, and the state at the tips is as before, or drifts evenly. Tips that are closed, or
-  /// would grow by less than the shortest increment, do not count: they may stay above it while others grow.
+  /// Whether growth in the last attempt has ended and settled: no tip that grew was above the load of growth by more
+  /// than the overshoot, and the state at the tips has not changed, or changes at a constant rate. Tips that are
+  /// closed, or would grow by less than the shortest increment, do not count, since they may stay above this load while
+  /// others grow.
   bool has_come_to_rest() const {
     return extensions_.empty() && growth_load_ <= 1 + overshoot() && load_.uneven <= options_.settled;
   }
-  /// The largest load of all tips over the load 1 + overshoot/2 at which a refused step would be made to end.
+  /// The largest load of all tips over 1 + overshoot/2, the load at which a repetition of a refused step is to end.
   double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * overshoot()); }
   /// Solves for the components of `settle` at fixed values of everything else, with data as in the given step.
   StepStatus settle(const StepTime& step) { return settle_.run(step); }

@@ -14,8 +14,8 @@ namespace sprekk {
 
 class Growing;
 
-/// Thrown by examine(), examine_followed() and grow() where no answer is found in the present state: the step counts as
-/// one that is not solved.
+/// Thrown by examine(), examine_followed() and grow() if they find no answer in the present state: the step then counts
+/// as not converged.
 class UnsolvedGrowth : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -39,11 +39,12 @@ class FrontSearch {
   /// After `found` the trial is the one to go on with; `again` where a tip that has grown now is to be searched for,
   /// too.
   virtual Verdict conclude(Growing& trial, const StepTime& step) = 0;
-  /// The mesh cannot take a path, an index into paths(). `again`: the next trial is without it, since its tip stops for
-  /// good, or its tip jumps less far; `refused`: the mesh could take earlier paths of the search, so the step is too
-  /// long.
+  /// To be called if the mesh cannot follow a path (an index into paths()). `again`: in the next trial its tip has
+  /// stopped for good, or jumps less far; `refused`: the step is too long, since the mesh could follow earlier paths of
+  /// the search.
   virtual Verdict give_up(int path, const std::string& why) = 0;
-  /// The step with the last paths could not be solved. Whether there are others, with less growth, to try instead.
+  /// To be called if the step with the last paths could not be solved. Returns whether there are other paths, with less
+  /// growth, to try.
   virtual bool retreat() = 0;
   virtual std::string reason() const = 0;  ///< why the step was refused
   virtual double retry_dt() const = 0;     ///< s, of the step to try instead; 0: no suggestion
@@ -55,13 +56,13 @@ struct PendingPath {
   std::vector<Point> points;  ///< m, from the end of the fracture in the mesh on
 };
 
-/// What a component with fractures that can grow offers to the schedule: the load of its tips, and growth.
+/// The interface of a component with fractures that can grow: the load of its tips, and growth.
 class Growing {
  public:
   static constexpr const char* promise = "has fractures that can grow";
   virtual ~Growing() = default;
 
-  /// How near the tips are to growth, from the current values of the fields.
+  /// How near the tips are to growth, at the current values of the fields.
   struct Load {
     double now = 0;             ///< the largest of all tips; a tip grows from 1 on
     double accepted = 0;        ///< the same at the start of the step
@@ -69,21 +70,20 @@ class Growing {
     double onset_accepted = 0;  ///< the same at the start of the step
     /// Largest relative change over the step of the state at the tips that a growth event disturbs.
     double unsettled = 0;
-    /// The same for the part of the change that the rate of the last step does not predict: 0 where the state drifts
-    /// evenly, as under an injection. At most `unsettled`.
+    /// The part of this change that the rate of the last step does not predict: 0 if the state changes at a constant
+    /// rate, as under an injection. At most `unsettled`.
     double uneven = 0;
   };
-  /// Throws InputError where no part gives it the loads of its tips.
+  /// Throws InputError if no part gives it the loads of its tips.
   virtual void require_loads() const {}
   virtual Load examine(const StepTime& step) = 0;
-  /// Examines only the tips whose growth search_front() finds: the others do not count in trials.
+  /// Examines only the tips that search_front() deals with; the others do not matter in trials.
   virtual void examine_followed(const StepTime& step) = 0;
   /// The growth of all tips in a step.
   struct Growth {
     std::vector<PathExtension> extensions;  ///< the paths that the mesh is to take over
     bool arrested = true;                   ///< whether all tips came to rest before the mesh had to take paths over
-    /// Of the tips that have grown, in a path or in what the component keeps: the largest load, before they grew, as
-    /// in Load::now. 0 where none has.
+    /// The largest load, as in Load::now, that a tip had before it grew in this step; 0 if none has grown.
     double load = 0;
   };
   /// Lets the tips grow until they arrest, or until the mesh must take their paths over. The component keeps a path
@@ -92,7 +92,7 @@ class Growing {
   virtual Growth grow(const StepTime& step) = 0;
   /// Whether growth is found within steps if the scene does not say.
   virtual bool may_grow_within_steps() const = 0;
-  /// To be called once: from then on growth is found within steps (search_front), as far as the mesh can follow it.
+  /// To be called once: from then on growth is found within steps (search_front), unless the mesh cannot follow it.
   virtual void grow_within_steps() = 0;
   /// With growth within steps: from now on all tips grow with the state held, by grow(), if `is_held`, and by
   /// search_front() otherwise.
@@ -112,8 +112,8 @@ class Growing {
   /// state; it must not outlive this component. Where the step may not become shorter, growth that is too far or not
   /// found to the last digit is taken, with a note.
   virtual std::unique_ptr<FrontSearch> search_front(const StepTime& step, bool may_shrink, bool goes_on) = 0;
-  /// Gives `other`, the same component in the same state on other cells, what a search has learnt for its next trial:
-  /// the trials go on with `other`.
+  /// Gives `other` (the same component in the same state on other cells), with which the trials continue, what a search
+  /// has learnt for its next trial.
   virtual void prepare(Growing& /*other*/) const {}
   /// The paths that the mesh has not taken over yet, in the current state.
   virtual std::vector<PendingPath> pending_paths() const { return {}; }
@@ -121,8 +121,8 @@ class Growing {
   virtual CavityOptions cavity() const = 0;
   /// A hash of the topology of the meshes that the component itself keeps; 0 if it keeps none.
   virtual std::uint64_t topology() const { return 0; }
-  /// Whether the systems that settle a state after growth may be so nearly singular that a solver which is quick for
-  /// small systems loses digits.
+  /// Whether the systems that settle a state after growth may be so nearly singular that the fast solver for small
+  /// systems loses digits.
   virtual bool settling_costs_digits() const { return false; }
 };
 

@@ -8,11 +8,10 @@
 
 namespace sprekk {
 
-/// A field p waits while a solve finds c; its balance stores s p + b c in each cell, besides what cells exchange. If it
-/// kept this amount, p would follow by dp = −b dc/s. So each equation R of the solve that contains p gets the term
+/// A field p waits while a solve finds c; its balance stores s p + b c in each cell, besides exchanges between cells.
+/// With this amount held, p would change by dp = −b dc/s. So each equation R of the solve that contains p gets the term
 /// −(dR/dp)(b/s) dc, local in c, which vanishes with convergence. s has the row sums of the derivatives of the balances
-/// by p, without exchanges (Operator::leaving): what a change of p that is the same everywhere stores in each cell or
-/// lets out.
+/// by p, without exchanges (Operator::leaving): the storage and outflow of each cell for a uniform change of p.
 class HeldAmounts {
  public:
   /// `held`: the fields p; `solved`: those of the solve.

@@ -75,8 +75,8 @@ class IterateStep::Passes {
   }
 
   End solve() {
-    // Where all rows hold and balances do not, each solve may disturb the balances of the others by round-off, which no
-    // pass makes smaller. The pass then ends after the solve that fulfils the balances.
+    // If all rows hold but balances do not, each solve may disturb the balances of the others by round-off, which no
+    // pass reduces. The pass then ends after the solve with which the balances hold.
     const bool misses_balances_alone = check_.rows_hold && !check_.balances_hold;
     const StepStatus inner =
         misses_balances_alone ? own_.inside_->run_until(step_, [&] { return own_.coupled_residual(step_).converged; })

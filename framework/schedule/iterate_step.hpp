@@ -32,15 +32,14 @@ struct IterateOptions {
   Spec spec();
 };
 
-/// Repeats the steps inside, accelerated if wanted. Unless the scene says otherwise, the iteration has converged when
-/// the residual of all equations that are solved inside, without stabilization, is small against their own terms; small
-/// updates do not count. Where steps inside take substeps the equations of a whole step are not fulfilled, and the
-/// estimated error of all fields takes the place of the residual: the change by a pass, times ρ/(1 − ρ), with ρ the
-/// ratio of this change to that by the pass before; changes by round-off do not count. Passes end early where their
-/// changes only grow.
+/// Repeats the steps inside, with acceleration if asked for. Unless the scene says otherwise, the iteration has
+/// converged when the residual of all equations inside, without stabilization, is small against their own terms; small
+/// updates do not suffice. If steps inside take substeps, the equations of the whole step do not hold, and the
+/// estimated error of all fields replaces the residual: the change by a pass, times ρ/(1 − ρ), with ρ the ratio of this
+/// change to that by the pass before; changes by round-off are ignored. Passes end early where their changes only grow.
 ///
-/// Where passes do not converge, the step is solved for all of the unknowns at once, unless the scene says otherwise
-/// (FallbackSolve). Only where that does not converge either is it refused. An iteration over substeps has no such
+/// If passes do not converge, the step is solved for all unknowns at once, unless the scene says otherwise
+/// (FallbackSolve); if that does not converge either, the step is refused. An iteration over substeps has no such
 /// system.
 class IterateStep : public ScheduleStep, public KeepsState {
  public:
@@ -70,8 +69,8 @@ class IterateStep : public ScheduleStep, public KeepsState {
   StepStatus converged(const StepTime& step, const StepStatus& status);
   ResidualCheck coupled_residual(const StepTime& step) const;
   void choose_scales();
-  /// Where steps inside take substeps: finds by how much round-off alone may change the values, from the equations of
-  /// the whole step.
+  /// If steps inside take substeps: estimates the change of values by round-off alone, from the equations of the whole
+  /// step.
   void find_round_off(const StepTime& step);
   /// The largest change of a field beyond round-off; `change`: of its values.
   double largest_change(std::size_t field, const Vector& change) const;

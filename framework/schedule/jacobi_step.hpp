@@ -6,8 +6,8 @@
 
 namespace sprekk {
 
-/// Runs its steps one after the other, each from the values at the beginning: none sees what another has found (block
-/// Jacobi). In the end all fields have what the steps have found for them.
+/// Runs its steps one after the other, each from the initial values and without the results of the others (block
+/// Jacobi). At the end all fields get the results of their steps.
 class JacobiStep : public SequenceStep {
  public:
   JacobiStep(std::vector<std::unique_ptr<ScheduleStep>> steps, FieldStore& fields)

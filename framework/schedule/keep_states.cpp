@@ -1,5 +1,5 @@
-// After a solution in which cells have left their discrete states by a jump, or have lost strength: looks for the
-// solution to which small increments from the start of the step lead.
+// After a solution in which cells have left their discrete states by a jump, or have lost strength: searches for the
+// solution that follows from the start of the step by small increments.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -116,8 +116,9 @@ bool Newton::may_have_passed_loss(const StepTime& step) {
     spent = std::max(spent, of_part.spent);
   }
   if (softened.rows.empty() || std::isinf(spent)) return spent > 0;
-  // Fewer places move earlier in the step, and none loses more than at its end, or than what is spent. So where the
-  // stiffness at the end is larger than that, it was positive all the way.
+  // Earlier in the step fewer places move, and each weakens at most as fast as at the end, or by `spent` (places whose
+  // strength is used up). So if the smallest stiffness at the end exceeds `spent`, it was positive during the whole
+  // step.
   const ResidualCheck check = evaluate(step);
   if (!check.finite || !linear_->factor(system_.matrix(*assembly_)).solved) return true;
   return smallest_if_positive(*linear_, system_.rows(), system_.size(), softened) <= spent;

@@ -19,9 +19,9 @@ struct StepTooLong {
 class LimitsStep {
  public:
   virtual ~LimitsStep() = default;
-  /// s, positive; infinity where nothing bounds the step that begins at `start` (s) from the accepted state. The same
-  /// on a repetition of the step; each process may know its own part, the shortest counts. A step that would be longer
-  /// is divided into equal ones; a bound below the smallest step of the scene ends the run.
+  /// s, positive; infinity if nothing bounds the step that begins at `start` (s) from the accepted state. The same when
+  /// the step is repeated. Processes may return different bounds; the shortest counts. A step that would be longer is
+  /// divided into equal ones; a bound below the smallest step of the scene ends the run.
   virtual double longest_step(double start) const = 0;
   /// Called when a step has converged, before it is accepted: whether its values show that it was too long. The same on
   /// all processes.

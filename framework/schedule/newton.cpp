@@ -106,7 +106,7 @@ Vector Newton::right_hand_side(const ResidualCheck& check) const {
   SPREKK_EXPECT(check.is_round_off.size() == unknowns_.size(), check.is_round_off.size(), unknowns_.size());
   const std::vector<int>& rows = system_.rows();
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
-    // Rows whose residuals are round-off are left alone, but not where their sum still has to be found.
+    // The right-hand side of rows whose residuals are round-off is zero, unless their sum still has to be solved for.
     if (!check.is_round_off[u] || check.is_unbalanced[u] || !check.is_round_off_in_sum[u]) continue;
     const int first = system_.first(static_cast<int>(u)), end = first + unknowns_[u]->size();
     const auto begin = std::lower_bound(rows.begin(), rows.end(), first);
@@ -281,8 +281,8 @@ bool Newton::is_small(ResidualCheck& check, int iteration, Seen& seen) {
   if (!seen.seeks_balance) check.is_unbalanced.assign(check.is_unbalanced.size(), 0);
   if (!check.rows_hold || check.converged || !seen.has_factors)
     return check.converged && iteration >= least_iterations_;
-  // An imbalance that another iteration does not halve is lost in the round-off of the matrix. Sums of balances may
-  // remove it; otherwise no smaller imbalance is possible. The same for the residual of a single row.
+  // An imbalance that an iteration does not halve is round-off of the matrix. Sums of balances may remove it; otherwise
+  // it cannot be reduced. The same holds for the residual of a single row.
   const bool rows_stall = check.each_row_holds || check.row_error > 0.5 * seen.last_row_error;
   seen.last_row_error = check.row_error;
   if (check.balances_hold) return rows_stall;

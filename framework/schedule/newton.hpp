@@ -34,30 +34,29 @@ struct NewtonOptions {
 /// The first attempt takes full steps, as active sets usually settle by themselves. If they have not after `undamped`
 /// iterations, or as soon as the discrete state cycles, a line search asks for descent of the sum of squares of the
 /// relative residuals. If the first attempt fails, a second one from the same start asks for descent from its first
-/// iteration: full steps may have led to a place from which no descent leads back.
+/// iteration, since no descent may lead back from where full steps have led.
 ///
 /// If the second attempt fails, and the discrete state has changed or a part is nonlinear in pieces, a third attempt
 /// follows a path. Contact is piecewise linear, so residual(x) = s residual(x0) is a polygonal line that bends where
-/// the discrete state changes. The path is followed from s = 1 down to 0, each piece with its own derivatives up to the
-/// end of that piece. Where the determinant changes its sign from one piece to the next, s grows until the path turns
-/// again. Full steps and descent can cycle or end in a minimum; the path can only run to a solution, to infinity, or
-/// back to its start (Katzenelson 1965 for monotone functions; Ralph 1994, "path search"; the turns are those of
-/// Lemke's method, with which Klarbring (1986) solved frictional contact). Coefficients that are not constant within a
-/// piece (the cubic law) are held, and ordinary iterations from the end of the path correct them. If these do not
-/// converge, the coefficients are released in shares, and then the path is followed with all derivatives, as far as it
-/// goes.
+/// the discrete state changes. The path is followed from s = 1 to 0, each piece with its own derivatives to its end.
+/// Where the determinant changes its sign from one piece to the next, s grows until the path turns again. Full steps
+/// and descent can cycle or end in a minimum; the path can only run to a solution, to infinity, or back to its start
+/// (Katzenelson 1965 for monotone functions; Ralph 1994, "path search"; the turns are those of Lemke's method, with
+/// which Klarbring (1986) solved frictional contact). Coefficients that are not constant within a piece (the cubic law)
+/// are held, and ordinary iterations from the end of the path correct them. If these do not converge, the coefficients
+/// are released in stages; then the path is followed with all derivatives, as far as it exists.
 ///
-/// A step may have several solutions, and Newton's method may jump over the one to which the step's start leads
-/// continuously. So where parts say that cells have left their states by a jump (PiecewiseSmooth::keep_states), the
-/// step is solved once more with these states kept; those that do not fulfil their conditions are released, until all
-/// do. The result is taken as the solution.
+/// A step may have several solutions, and Newton's method may miss the one that follows continuously from the start of
+/// the step. So if parts say that cells have left their states by a jump (PiecewiseSmooth::keep_states), the step is
+/// solved once more with these states kept. States whose conditions are violated are released, until none is. The
+/// result is taken as the solution.
 ///
-/// Where places lose strength as they move (Softening), the path also tells whether equilibria lead from the accepted
-/// state to the solution. Small parts of the load move it from s = 1 to 0, so where it turns for the first time the
-/// equilibria end: the stiffness condensed to the free values has a negative eigenvalue from there on. A step without a
-/// solution then ends with that reason (StepStatus::is_hopeless), and a solution beyond is kept with a note.
+/// With softening (Softening) the path also tells whether equilibria lead from the accepted state to the solution. As
+/// the load of the step is applied, s falls from 1 to 0; where s first turns, equilibria end, because the stiffness
+/// condensed to the free values gets a negative eigenvalue. A step without a solution then fails with that reason
+/// (StepStatus::is_hopeless), and a solution beyond this point is accepted with a note.
 ///
-/// Repeating a call from the same fields gives the same bits.
+/// A repeated call from the same fields gives the same bits.
 class Newton {
  public:
   Newton(const Mesh& mesh, std::vector<Field*> unknowns, std::vector<Part*> parts, const LinearOptions& linear,
@@ -68,13 +67,13 @@ class Newton {
   /// residual of that field. `responses`: Schur complements of unknowns outside of the call.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization = {}, const Responses& responses = {});
 
-  /// What assembly and linear solver have done since the start.
+  /// Counts of assemblies and of the linear solver since the start.
   LinearCounts counts() const;
-  /// Makes a call iterate once at least, also where the residuals hold from the start. In an iteration of several
-  /// solves a residual may be small against its own terms, and large against a balance that another solve keeps.
+  /// Makes a call iterate at least once, even if the residuals are small from the start: in an iteration of several
+  /// solves a residual may be small against its own terms but large against a balance of another solve.
   void iterate_at_least_once() { least_iterations_ = 1; }
-  /// Whether the last call has used up its iterations. The fields have the values of the last attempt with descent
-  /// then, or of the only one.
+  /// Whether the last call has used up its iterations. The fields then have the values of the last attempt with
+  /// descent, or of the only attempt.
   bool has_used_up_iterations() const { return is_used_up_; }
   void set_preconditioner_stabilization(const Stabilization& stabilization);
   /// Adds notes on a step that is about to be accepted.
@@ -85,22 +84,22 @@ class Newton {
   /// Assembles residual and derivatives at the current values of the fields, and checks the residual. Derivatives are
   /// always included: most evaluated states are accepted, and derivatives of linear terms cost nothing.
   ResidualCheck evaluate(const StepTime& step);
-  /// The same at values that may be too far away for formulas to have a value: the residual is not finite then.
+  /// The same at values for which formulas may have no value; the residual is not finite then.
   ResidualCheck evaluate_trial(const StepTime& step);
   std::uint64_t discrete_state() const;
   std::vector<Vector> values() const;
   void move(const std::vector<Vector>& from, const Vector& update, double length);
-  /// Minus the residual in the owned rows of the last matrix; zero for equations that hold to round-off. With zeros in
-  /// the linear equations of the bulk, a solver that condenses the bulk solves for it only once a step.
+  /// Minus the residual in the owned rows of the last matrix; zero for equations that hold to round-off. Zeros in the
+  /// linear equations of the bulk let a condensing solver solve for the bulk only once a step.
   Vector right_hand_side(const ResidualCheck& check) const;
   /// The largest change of a field over its largest value. Fields whose equation already holds to round-off are left
   /// out: where nothing flows, a flux is round-off alone.
   double relative_size(const Vector& update, const ResidualCheck& check) const;
   /// For each unknown: whether its equation and the sums that contain the equation ask for no further update.
   std::vector<char> is_settled(const ResidualCheck& check) const;
-  /// Lets sums of balances take the place of rows also where other unknowns of the bulk respond to their constant mode,
-  /// if they do not yet, and checks the residual anew. To be tried where the system is singular: rows in which
-  /// round-off hides what determines the constant are so, too; the equations stay equivalent.
+  /// Lets sums of balances replace rows also if other unknowns of the bulk respond to their constant mode, unless they
+  /// do already, and checks the residual again. To be tried for a singular system, since it may be singular only
+  /// because round-off hides what determines the constant mode. The equations stay equivalent.
   bool take_coupled_sums(ResidualCheck& check);
   bool may_take_coupled_sums() const;
   /// When an attempt ends. `end`: after all iterations. `search`: where a line search would begin, if the discrete
@@ -132,9 +131,8 @@ class Newton {
     double time;      ///< s
     std::string told;
   };
-  /// Whether the free values of all parts have lost their stability, also in a step so short that nothing flows. To be
-  /// called when the derivatives at the present values are factorized; afterwards those of that short step may be.
-  /// `time`: when, s.
+  /// Whether the free values of all parts are unstable, also in a step so short that nothing flows. To be called when
+  /// the derivatives at the present values are factorized; afterwards those of that short step may be. `time`: when, s.
   std::optional<Loss> find_loss(const StepTime& step, double time);
   /// The same with the derivatives that are factorized already.
   std::optional<Loss> find_loss(double time);
@@ -143,7 +141,7 @@ class Newton {
   /// After a solution in which parts have lost strength: false where all states between the start of the step and the
   /// solution are known to be stable.
   bool may_have_passed_loss(const StepTime& step);
-  /// After a solution: looks whether a path leads to it. If it leads to another one, that is taken.
+  /// After a solution: checks whether a path leads to it. If the path leads to another solution, that one is taken.
   void follow_softening(const StepTime& step);
   /// Whether the present values are another solution than these.
   bool is_elsewhere(const std::vector<Vector>& solution) const;
@@ -174,7 +172,7 @@ class Newton {
   std::optional<Loss> lost_;           ///< where the last path has ended
   std::optional<Loss> passed_;         ///< by the solution of the step `passed_in_`
   StepTime passed_in_;
-  StepTime last_failed_path_;  ///< the last step whose path failed; no path is tried in a step that is hardly shorter
+  StepTime last_failed_path_;  ///< the last step whose path failed; none is tried in a step that is not much shorter
   const Stabilization* stabilization_ = nullptr;
   const Responses* responses_ = nullptr;
   std::map<const Field*, Vector> start_;

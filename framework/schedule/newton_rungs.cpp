@@ -26,14 +26,14 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
     try_again(
         [&] { return finish_with_own_derivatives(step, attempt_also_without_conditions(step, start, Until::end)); });
   if (status.converged || status.iterations <= 1) return status;
-  // 3. Descent from the first iteration on: full steps may have led to where no descent leads back from.
+  // 3. Descent from the first iteration on, since no descent may lead back from where full steps have led.
   if (options_.undamped > 0) try_again([&] { return finish_with_own_derivatives(step, iterate(step, 0)); });
   if (status.converged || !may_follow_path(step)) return status;
   // 4. The path from piece to piece.
   return follow_paths(step, start, std::move(status));
 }
 
-/// If the system is singular, because nothing holds some unknown in the present discrete state, a further attempt
+/// If the system is singular, because nothing determines some unknown in the present discrete state, a further attempt
 /// starts from fields whose conditions are inactive (PiecewiseSmooth::deactivate_conditions).
 StepStatus Newton::attempt_also_without_conditions(const StepTime& step, const std::vector<Vector>& start,
                                                    Until until) {
@@ -51,8 +51,8 @@ bool Newton::is_nonlinear_in_pieces() const {
   return std::ranges::any_of(pieces_, [](const PiecewiseSmooth* part) { return part->is_nonlinear_in_pieces(); });
 }
 
-/// Without shortcuts parts that are nonlinear in pieces come near the solution surely and slowly. From there their own
-/// derivatives are quick.
+/// Without shortcuts, parts that are nonlinear in pieces approach the solution reliably but slowly. Near the solution
+/// their own derivatives converge fast.
 StepStatus Newton::finish_with_own_derivatives(const StepTime& step, StepStatus status) {
   if (status.converged || !is_used_up_ || !is_nonlinear_in_pieces()) return status;
   const SearchModeGuard own(SearchMode::piecewise, SearchMode::without_shortcuts, pieces_);
@@ -69,8 +69,8 @@ bool Newton::may_follow_path(const StepTime& step) const {
   return !has_failed || step.dt <= much_shorter * last_failed_path_.dt;
 }
 
-/// The path is followed with coefficients held, then corrected with the true ones, which are released in shares where
-/// that fails; and then with all derivatives.
+/// The path is followed with coefficients held, then corrected with the true coefficients, which are released in stages
+/// if that fails; at last it is followed with all derivatives.
 StepStatus Newton::follow_paths(const StepTime& step, const std::vector<Vector>& start, StepStatus status) {
   const bool is_used_up = is_used_up_;
   const std::vector<Vector> tried = values();

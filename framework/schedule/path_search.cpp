@@ -23,8 +23,8 @@ struct Crossing {
 };
 
 /// The first crossing within `limit`, or none. `is_same` says whether a length is still in the piece. In a plane pieces
-/// are convex, so if a length is in the piece, all shorter lengths are. In space they need not be, as what is outside
-/// of a cone: lengths are tried from a short one on, since a line that turns back at a crossing leaves the piece at
+/// are convex, so if a length is in the piece, all shorter lengths are. In space they need not be (the outside of a
+/// cone is not), so lengths are tried from a short one on: a path that turns back at a crossing may leave the piece at
 /// once.
 template <class IsSame>
 std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
@@ -45,10 +45,10 @@ std::optional<Crossing> first_crossing(const IsSame& is_same, double limit) {
 
 }  // namespace
 
-/// Moves the fields off kinks. Cells that slipped last lie on a kink, and cells without load on several; round-off
-/// would decide in which piece a path starts from there, and which piece follows. A path may start anywhere, so it
-/// starts beside the kinks. Fields of one unit share a scale: jumps that are zero while everything sticks are compared
-/// with displacements.
+/// Moves the fields off kinks. Cells that slipped last are at a kink, and cells without load at several; from there
+/// round-off would decide in which piece a path starts and which piece follows. A path may start anywhere, so it starts
+/// beside the kinks. Fields of one unit share a scale: jumps that are zero while everything sticks are compared with
+/// displacements.
 void Newton::step_off_kinks(const LinearSystem& system, const Vector& update) {
   // Above round-off of the state; by other amounts for each unknown, as multiples of the golden ratio repeat nowhere.
   constexpr double aside = 1e-5;

@@ -51,9 +51,9 @@ double noise_of_rows(const Assembly& assembly, const BlockSystem& system, int un
   return rows * rounding::of_sum * parallel::max(assembly.round_off_base(unknown));
 }
 
-/// For each unknown of a sum: how far the sum of its own rows is unknown though the sum of all of them is not. In the
-/// system one row has the place of the sum. The others hold with the round-off of what rows exchange, which passes
-/// through what joins the fields (the flux through walls, say) into the sum of the field that has the row.
+/// For each unknown of a sum: the uncertainty of the sum of its own rows, beside that of the sum of all rows. In the
+/// system the sum replaces one row. The others hold with the round-off of what rows exchange, which enters, by the
+/// exchange between fields (such as the flux through walls), the sum of the field whose row was replaced.
 std::vector<double> noise_of_parts(const Assembly& assembly, const BlockSystem& system,
                                    const std::vector<Balances::Quantity>& sums, const Balances::Quantity& quantity) {
   std::vector<double> noise(quantity.unknowns.size(), 0);
@@ -115,9 +115,9 @@ void check_sums(const Assembly& assembly, const BlockSystem& system, double tole
   }
 }
 
-/// The sizes of the terms of each row of an unknown: (|A| |x|)_i, with the throughput of a balance. What a cell stores
-/// follows from the changes of its own values in the step, so their levels are none of the terms: `digits` has these,
-/// too, of which the last digits are lost.
+/// The sizes of the terms of each row of an unknown: (|A| |x|)_i, with the throughput of a balance. The storage of a
+/// cell follows from changes in the step, so the values themselves are not among the terms; `digits` includes them,
+/// since their last digits are lost.
 struct SizesOfRows {
   Vector terms, digits;
 };

@@ -10,10 +10,10 @@
 
 namespace sprekk {
 
-/// How the residuals of an assembly compare with their terms; all figures are relative unless said otherwise.
+/// The residuals of an assembly, compared with their terms; all figures are relative unless said otherwise.
 struct ResidualCheck {
   bool finite = true;
-  std::string without_value;   ///< where a formula has none: what it says, and the residual is not finite
+  std::string without_value;   ///< if a formula has no value: its message; the residual is not finite
   bool converged = false;      ///< rows_hold, balances_hold and each_row_holds
   bool rows_hold = false;      ///< every residual is small against its terms
   bool balances_hold = true;   ///< the residuals of each conserved quantity are small against its throughput
@@ -38,27 +38,26 @@ struct ResidualCheck {
   }
 };
 
-/// Errors of balances, of one row or of all, may be so many times the tolerance of residuals.
+/// The tolerance of balances, of one row or of all, over that of residuals.
 constexpr double looser_for_balances = 100;
 
 /// An equation is fulfilled when its largest residual is at most `tolerance` times the largest of its terms, or is
 /// round-off of those terms. Every equation is measured by its own terms, so the test needs no scales from the user and
-/// does not depend on units. Where the system puts the sum of balances in the place of one (BlockSystem::use_sums), the
-/// sum of the balances of each field is checked like an equation, too. Where one row has the sum of several fields, the
-/// sums of single fields may be off by the round-off of what the other rows exchange; then the total of all fields has
-/// to hold.
+/// does not depend on units. If the sum of balances replaces one of them (BlockSystem::use_sums), the sum of the
+/// balances of each field is checked like an equation, too. If one row has the sum of several fields, the sums of
+/// single fields may be off by the round-off of exchanges in other rows; then only the total of all fields is checked.
 ///
-/// What rows exchange may be any multiple of what they store, and a residual that is small against the exchange may be
-/// as large as all of the storage. So the balances of a conserved quantity are also compared with their throughput
+/// Rows may exchange any multiple of what they store, so a residual that is small against the exchange may be as large
+/// as all of the storage. So the balances of a conserved quantity are also compared with their throughput
 /// (BalanceRows): neither the sum of all absolute residuals, nor their sum without exchanges, which has more digits,
-/// may exceed 100 × tolerance times the throughput, apart from round-off. Balances in whose place values are fixed are
-/// left out: fixed values let an unknown amount in.
+/// may exceed 100 × tolerance times the throughput, apart from round-off. Balances that are replaced by fixed values
+/// are left out, since an unknown amount enters there.
 ///
 /// One fracture may conduct any multiple of what another one stores. So each balance of an interface, where fluxes are
 /// unknowns, is compared with its own row as well, by the componentwise backward error (Oettli and Prager 1964; Arioli,
 /// Demmel and Duff 1989): |r_i| is at most 100 × tolerance times (|A| |x|)_i plus the throughput of the row, or the
-/// round-off of these terms. For values of the cell itself x is the change in the step: what a cell stores in the step
-/// follows from it, and what it held before is no term of its balance. Collective.
+/// round-off of these terms. For values of the cell itself x is the change in the step, from which its storage follows.
+/// Collective.
 ResidualCheck check_residual(const Assembly& assembly, const BlockSystem& system, double tolerance);
 
 }  // namespace sprekk

@@ -1,4 +1,4 @@
-// What the steps of a schedule are read and built from.
+// The input for reading and building the steps of a schedule.
 #pragma once
 
 #include <map>
@@ -31,7 +31,7 @@ struct ScheduleContext {
   std::vector<Field*> solved_fields(const std::vector<std::string>& components) const;
 };
 
-/// What is known of a scene when its `schedule:` is read, before there is a mesh.
+/// The scene as far as it is known when its `schedule:` is read, before there is a mesh.
 struct ScheduleReading {
   std::vector<std::string> component_names;  ///< what a `solve` may name
   LinearOptions linear;                      ///< for a `solve` without options of its own

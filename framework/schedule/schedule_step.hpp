@@ -56,26 +56,26 @@ class ScheduleStep {
   virtual void check() const {
     for (const ScheduleStep* child : children()) child->check();
   }
-  /// Throws InputError where nothing holds some balances in a system that the first time step solves: it would be
-  /// refused there. Called when all parts have begun this step. Collective.
+  /// Throws InputError if nothing determines the constant mode of some balances in a system of the first time step,
+  /// which would fail there. Called when all parts have begun this step. Collective.
   virtual void require_held(const StepTime& step) const {
     for (const ScheduleStep* child : children()) child->require_held(step);
   }
-  /// Tells the unknowns of an iteration around the step: those that it does not solve for itself wait meanwhile.
+  /// Tells the step the unknowns of the iteration around it: those that it does not solve for wait meanwhile.
   virtual void iterate_with(const std::vector<const Field*>& /*unknowns*/) {}
-  /// Adds notes on a step that is about to be accepted: how it was solved, where that is not what the scene says.
+  /// Adds notes on a step that is about to be accepted, if it was solved in another way than the scene says.
   virtual void note_step(Notes& notes, const StepTime& step) const {
     for (const ScheduleStep* child : children()) child->note_step(notes, step);
   }
-  /// The largest error of a balance over its throughput that an accepted step may have; infinite where conditions on
-  /// changes alone end an iteration.
+  /// The largest error of a balance over its throughput that an accepted step may have; infinite if an iteration ends
+  /// by conditions on changes only.
   virtual double largest_imbalance() const {
     double largest = 0;
     for (const ScheduleStep* child : children()) largest = std::max(largest, child->largest_imbalance());
     return largest;
   }
-  /// By which factor the error of an amount over the step may exceed that of one solve: solves inside that follow one
-  /// another each add theirs.
+  /// The factor by which the error of an amount over the step may exceed that of one solve: the errors of successive
+  /// solves inside add up.
   virtual double summed_errors() const {
     double largest = 1;
     for (const ScheduleStep* child : children()) largest = std::max(largest, child->summed_errors());

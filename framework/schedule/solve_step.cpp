@@ -44,7 +44,7 @@ void require_together(const SolveOptions& options, const std::vector<Part*>& par
                                   : ""));
 }
 
-/// Derivatives of what another program solves for are unknown: it is solved for alone, and as it answers.
+/// The derivatives of another program's equations are unknown, so it is solved alone and its answer is taken.
 void require_alone(const SolveOptions& options, const std::vector<Part*>& parts) {
   for (const auto* outside : parts_with<SolvedOutside>(parts)) {
     const std::string& name = outside->component();

@@ -56,9 +56,9 @@ class SolveStep : public ScheduleStep {
   /// is held (Part::dependences).
   std::vector<const Field*> answering() const;
   const Responses& responses(const StepTime& step);
-  /// The waiting fields whose balances the stabilization lets keep their amounts (HeldAmounts).
+  /// The waiting fields whose balances keep their amounts by the stabilization (HeldAmounts).
   std::vector<const Field*> held_amounts() const;
-  /// Solves without the bounds of the response, which are far from linear; with them where that does not converge.
+  /// Solves without the bounds of the response, which are strongly nonlinear; with them if that does not converge.
   StepStatus solve(const StepTime& step, const Stabilization& stabilization, const Responses& of_waiting);
   /// Whether the values of a solve that has used up its iterations may be used by the iteration around it.
   bool is_good_enough(const StepTime& step);

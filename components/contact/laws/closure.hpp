@@ -1,4 +1,4 @@
-// How far walls in contact approach each other under pressure.
+// The closure of walls in contact under pressure.
 #pragma once
 
 #include "components/contact/laws/no_input.hpp"

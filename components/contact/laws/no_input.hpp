@@ -1,4 +1,4 @@
-// What laws are built from that need nothing but their parameters.
+// The input of laws that need nothing but their parameters.
 #pragma once
 
 namespace sprekk::contact {

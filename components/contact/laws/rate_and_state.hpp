@@ -23,7 +23,7 @@ struct RateAndStateLaw {
   /// The coefficient of friction tau/N without damping.
   double friction_at(double slip_rate, double state) const;
 
-  /// A step of a place on the walls: theta (s) at its beginning, its length (s), and N (Pa), not negative.
+  /// A step at one place on the walls: theta (s) at its start, its length (s), and N >= 0 (Pa).
   struct Step {
     double state, dt, pressure;
   };
@@ -34,8 +34,8 @@ struct RateAndStateLaw {
     double by_trial;     ///< d tau/d trial
     double by_pressure;  ///< d tau/d N
   };
-  /// Solves tau(V, theta(V), N) + c V dt = trial for V, with `trial` >= 0 (Pa) and the stiffness c > 0 (Pa/m). Of
-  /// several solutions, of which all but one have V dt > L a/(b − a), it is the slowest.
+  /// Solves tau(V, theta(V), N) + c V dt = trial for V, with `trial` >= 0 (Pa) and the stiffness c > 0 (Pa/m). If there
+  /// are several solutions, the slowest one is returned; all others have V dt > L a/(b − a).
   Returned returned(double trial, double stiffness, const Step& step) const;
 };
 

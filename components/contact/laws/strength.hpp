@@ -29,7 +29,7 @@ inline double lost_by_slip(const Strength& s, double normal, double dt) {
 /// Linear weakening: with m = min(1, q/D) friction is mu_s − m (mu_s − mu_d), cohesion and tensile strength are 1 − m
 /// of their values at the start (for friction: Ida, J. Geophys. Res. 77 (1972) 3796; Andrews, J. Geophys. Res. 81
 /// (1976) 3575). The path q counts all slip, forth and back, and all opening: what is lost does not come back. Without
-/// a distance nothing is lost: friction and cohesion are those of Mohr and Coulomb.
+/// a distance nothing is lost (Mohr-Coulomb).
 struct Weakening {
   double distance = 0;          ///< D, m; 0 without weakening
   double cohesion = 0;          ///< Pa
@@ -40,7 +40,7 @@ struct Weakening {
     Strength s{static_friction, cohesion, tensile_strength};
     if (!is_on()) return s;
     const double lost = std::min(1.0, path / distance), rate = path < distance ? 1 / distance : 0.0;
-    // A friction that is below mu_d already does not rise.
+    // A friction that is below mu_d from the start stays as it is.
     const double drop = std::max(0.0, static_friction - dynamic_friction);
     s.friction -= lost * drop;
     s.friction_by_path = -rate * drop;

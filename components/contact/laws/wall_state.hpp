@@ -1,4 +1,4 @@
-// What the strength of walls depends on.
+// The variables on which the strength of walls depends.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 
 namespace sprekk::fracture_flow {
 
-/// What a formula of the transmissivity may name; the aperture is the first.
+/// The variables that a formula of the transmissivity may name; the aperture is the first.
 const StateVariables& conduction_variables();
 /// Their places in ConductionState.
 enum ConductionVariable : std::size_t {
@@ -26,8 +26,8 @@ struct HydraulicState {
   ConductionState by;  ///< m over the unit of each variable
 };
 
-/// h of h^3 = 12 K for the transmissivity K (m^3) that the formula gives, but not below `lowest`. Nor is the aperture
-/// in the formula, so that walls which touch do not divide by zero.
+/// h from h^3 = 12 K with the transmissivity K (m^3) of the formula, but not below `lowest`. The aperture in the
+/// formula is not below `lowest` either, so that closed walls do not divide by zero.
 HydraulicState hydraulic_state(const StateFormula& formula, int cell, double lowest, ConductionState state);
 
 }  // namespace sprekk::fracture_flow

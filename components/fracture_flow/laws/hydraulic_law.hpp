@@ -1,15 +1,17 @@
-// How a fracture conducts: the interface of the laws for the hydraulic aperture.
+// The interface of the laws for the hydraulic aperture of a fracture.
 #pragma once
 
 namespace sprekk::fracture_flow {
 
-/// The aperture of the smooth parallel walls that conduct as the fracture does, and its derivative by the aperture.
+/// The hydraulic aperture h, that of smooth parallel walls with the transmissivity of the fracture, and its derivative
+/// by the aperture.
 struct HydraulicAperture {
   double value;  ///< h, m: the transmissivity is h^3/12 over the viscosity
   double by_aperture;
 };
 
-/// A law for the hydraulic aperture. It conducts only: the stored volume is that of the aperture itself.
+/// A law for the hydraulic aperture. The hydraulic aperture is for flow only: the stored volume is that of the aperture
+/// itself.
 class HydraulicLaw {
  public:
   virtual ~HydraulicLaw() = default;

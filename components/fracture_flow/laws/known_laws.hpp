@@ -15,7 +15,7 @@ struct HydraulicLawParameters {
   double roughness = 0;  ///< m, height of the asperities
 };
 
-/// Further laws, which plug-ins register. They are built from the lower bound of the hydraulic aperture, m; it is
+/// Further laws, registered by plug-ins. They are built from the lower bound of the hydraulic aperture, m, which is
 /// positive.
 using HydraulicLaws = LawRegistry<HydraulicLaw, double>;
 HydraulicLaws& hydraulic_laws();

@@ -19,7 +19,7 @@ struct LawOptions {
   Data inertia;                        ///< 1/m, Forchheimer's coefficient
   LawChoice<HydraulicLaw, double> registered;
   Spec spec();
-  /// `floor`: the hydraulic aperture does not fall below this either, m.
+  /// `floor`: a further lower bound of the hydraulic aperture, m.
   std::unique_ptr<HydraulicLaw> make(double floor) const;
 };
 

@@ -1,4 +1,4 @@
-// The radius at which the pressure around a point of a fracture in space is that of its cells.
+// The radius at which the pressure around a rate at a point of a fracture in space equals that of its cells.
 #pragma once
 
 #include <utility>
@@ -9,12 +9,13 @@
 
 namespace sprekk::fracture_flow {
 
-/// The radius r_e (m) at which a rate q at the point `at` of a surface without end has the pressure p_e of the cells
-/// there: with the transmissivity T and the distance r,
+/// The radius r_e (m) at which the pressure of a rate q at the point `at` of an infinite surface equals the mean of the
+/// cells at the point: with the transmissivity T and the distance r,
 ///   p = -mu q/(2 pi T) ln r,   sum of share · p_cell = -mu q/(2 pi T) ln r_e.
-/// Peaceman's radius (SPE Journal 18 (1978) 183; 23 (1983) 531), found as he found it: the equations of the flow are
-/// solved in the cells around `cell`, which holds the point, with this pressure at the edges of that patch. So it is
-/// right for cells of any shape. `shares`: of these cells in q. 0 where the cell is at a rim or a crossing.
+/// Peaceman's radius (SPE Journal 18 (1978) 183; 23 (1983) 531), found by his method: the equations of the flow are
+/// solved in a patch of cells around `cell`, which contains the point, with the pressure above at the edges of the
+/// patch. So r_e is right for cells of any shape. `shares`: the share of each cell in q. Returns 0 where the cell is at
+/// a rim or a crossing.
 double equivalent_radius(const Mesh& mesh, const MimeticDrops& drops, int cell, const Point& at,
                          const std::vector<std::pair<int, double>>& shares);
 

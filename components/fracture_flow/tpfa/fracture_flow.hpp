@@ -37,20 +37,20 @@ namespace sprekk::fracture_flow {
 /// its second cell (m^2/s, in space m^3/s). Each row of p balances the volume of fluid of one cell over the step (m^2;
 /// in space m^3, with the area of the cell for L):
 ///   L (rho a − rho_old a_old)/rho_mean + dt (sum of Q out of it) − dt q = 0,
-/// the change of the mass of fluid over the mean density of the step (stored_fluid.hpp; with `cavitation`,
-/// cavitation.cpp, a part of a is empty), and each row of Q is Q = C (p_first − p_second), C from the resistances of
-/// the half cells in series (half_cell_apertures.hpp), and with inertia Q (1 + C I |Q|) in place of Q. With Q as an
-/// unknown a fracture may conduct 1e12 times better than rock without loss of digits: Q is not computed from a
-/// difference of nearly equal pressures, and the flux out of one cell enters the next one to the bit. Properties are
-/// those at the end of the step. Rates and volumes of members have the units of a plane.
+/// the first term being the change of mass over the mean density of the step (stored_fluid.hpp; with `cavitation`, a
+/// part of a is empty, cavitation.cpp). Each row of Q is Q = C (p_first − p_second), with C from the resistances of the
+/// half cells in series (half_cell_apertures.hpp); with inertia, Q (1 + C I |Q|) takes the place of Q. Since Q is an
+/// unknown, it is not computed from a difference of nearly equal pressures, so no digits are lost in a fracture that
+/// conducts 1e12 times better than rock; and the flux out of one cell enters the next one to the bit. Properties are
+/// those at the end of the step. Comments of members give the units of rates and volumes in a plane.
 ///
-/// Where the transmissivity is a formula of the state, the hydraulic aperture of a half cell follows from the aperture
-/// there, and from what else the formula names in its cell. `by_aperture` in lists and vectors of derivatives then has
-/// further columns behind those of the apertures: with n fracture cells, column n + k n + i is the k-th further
-/// variable in cell i.
+/// Where the transmissivity is a formula of the state, the hydraulic aperture of a half cell depends on the aperture
+/// there, and on the further variables of the formula in its cell. In derivatives `by_aperture` columns of these
+/// variables follow those of the apertures: with n fracture cells, column n + k n + i is the k-th further variable in
+/// cell i.
 ///
-/// With Options::fractures there is a flow in these fractures only. In all others the row of p is p = 0, no flux has a
-/// conductance, and walls are sealed.
+/// With Options::fractures there is a flow in these fractures only. In all others the row of p is p = 0, conductances
+/// are zero, and walls are sealed.
 class FractureFlow : public Component,
                      public PiecewiseSmooth,
                      public KeepsState,
@@ -68,11 +68,12 @@ class FractureFlow : public Component,
   /// Throws InputError for a scene without fractures, and for fractures, sides and places that do not exist.
   FractureFlow(const ComponentContext& context, const Options& options);
 
-  /// Cells that have grown start with the pressure of their neighbours; a parameter says whether they start with fluid.
+  /// New cells of fractures that grow start with the pressure of their neighbours; a parameter says whether they
+  /// contain fluid.
   void carry_over(const Part& before, const MeshChange& change) override;
   void settled(const MeshChange& change) override;
   void evaluate_data(const StepTime& step) override;
-  /// A bound of the pressure becomes active within steps, so that no scheme is of second order there.
+  /// Not with cavitation: a bound of the pressure that becomes active within a step makes every scheme of first order.
   bool allows_stages() const override { return !options_.cavitation; }
   void take_stages(bool are_stages) override {
     entering_density_ = are_stages ? EnteringDensity::at_end : EnteringDensity::of_step;
@@ -132,7 +133,7 @@ class FractureFlow : public Component,
   void require_state() const override;
 
  private:
-  /// Derivatives by the variables of a formula; that by the aperture stands elsewhere.
+  /// Derivatives by the variables of a formula except the aperture.
   using ByState = ConductionState;
   /// The hydraulic aperture by the law, m.
   struct Hydraulic {
@@ -145,11 +146,11 @@ class FractureFlow : public Component,
     ByState by_state = {};
   };
   using Derivatives = std::vector<std::pair<int, double>>;
-  /// Appends `factor` times the derivatives by what the formula names besides the aperture, in a cell.
+  /// Appends `factor` times the derivatives by the variables of the formula in a cell, without the aperture.
   void append_by_state(Derivatives& derivatives, int cell, double factor, const ByState& by_state) const;
-  /// The number of columns of derivatives by apertures, with those behind, over that of cells.
+  /// The number of columns of derivatives `by_aperture`, divided by the number of cells.
   Eigen::Index kinds_of_columns() const { return 1 + std::ssize(named_); }
-  /// Zero derivatives by the apertures of the cells of a junction, with those behind.
+  /// Zero derivatives `by_aperture` for the cells of a junction.
   Vector no_derivatives(const Junction& junction) const {
     return Vector::Zero(kinds_of_columns() * std::ssize(junction.cells));
   }
@@ -161,7 +162,8 @@ class FractureFlow : public Component,
   Transmissivity transmissivity(int cell, int ridge) const;
   Transmissivity cubic_law(int cell) const;
   bool is_held() const { return held_aperture_.size() > 0; }
-  /// By the law, from the present aperture and the held one, if any; the derivative is by the present one.
+  /// The hydraulic aperture by the law, from the present aperture and the held one, if any, with its derivative by the
+  /// present one.
   Hydraulic hydraulic_aperture(int cell, double present, double held) const;
   Hydraulic hydraulic_aperture(int cell) const;
   Hydraulic hydraulic_by_law(int cell, ConductionState state) const;
@@ -171,19 +173,19 @@ class FractureFlow : public Component,
     int first, second;             ///< cells; second is none at an open end with a prescribed pressure
     int junction;                  ///< index into Mesh::junctions where fractures meet, else none
     int place;                     ///< among the ridges of the junction
-    double boundary_pressure = 0;  ///< Pa, of an open end, or behind what resists there
+    double boundary_pressure = 0;  ///< Pa, of an open end, or beyond its resistance
     std::optional<double> end_conductance = std::nullopt;  ///< m/(Pa s), per area of an end; none: it does not resist
     bool only_out = false;                                 ///< at an end: nothing enters
     double gravity = 0;                                    ///< rho g·(x_first − x_second), Pa
-    /// What the excess of the density over the constant one adds to the difference of pressures: a factor for each cell
-    /// (m^2/s^2), and a pressure (Pa) at an end.
+    /// The contribution of the excess density to the difference of pressures: a factor for each cell (m^2/s^2), and a
+    /// pressure (Pa) at an end.
     std::vector<std::pair<int, double>> by_density = {};
     double excess_at_end = 0;
   };
   void count_let_in(const Assembly& assembly) const;
   /// The rates at named places, and the outflow at sides with a pressure, at the end of the step.
   void report_rates(std::vector<Quantity>& quantities) const;
-  /// What is outside of a fracture's end; nullopt where it is closed.
+  /// The condition outside of a fracture's end; nullopt if the end is closed.
   std::optional<OutsideOfRock> outside_of_end(const Ridge& end, const Place& place, const StepTime& step) const;
   Conductance conductance(const Link& link) const;
   Conductance conductance_at_end(const Link& link) const;
@@ -201,22 +203,22 @@ class FractureFlow : public Component,
   std::vector<JunctionFluxes::Half> halves_by_opening(const Junction& junction) const;
   /// Notes fractures that end on a side where the rock is open, if the scene says nothing about their ends.
   void note_ends(Notes& notes) const;
-  /// Notes a pressure on a side that does not hold at an end on its border, which belongs to the side beside it.
+  /// Notes a pressure on a side that does not act on a fracture which ends on the border of the side, since this end
+  /// belongs to the neighbouring side.
   void note_ends_on_two_sides(Notes& notes) const;
-  /// Notes fluid that begins with another pressure than that of the rock behind its walls.
+  /// Notes an initial fluid pressure that differs from that of the rock at the walls.
   void note_start_at_walls(Notes& notes) const;
-  /// Notes a fracture that passes the tight walls of another by a crossing whose fill is not said.
+  /// Notes a fracture that conducts through the tight walls of another at a crossing whose fill is not given.
   void note_crossings(Notes& notes) const;
   /// The normal permeability of each wall, where what fills crossings depends on it; else empty.
   Vector walls_of_crossings() const;
-  /// Leads the halves through what fills the crossing.
+  /// Adds the resistance of the fill of the crossing to the halves.
   void pass_crossing(std::size_t junction, const Vector& walls, std::vector<JunctionFluxes::Half>& halves) const;
   /// K (m^3) of the half of a cell at one of its ridges, where the transmissivity is given.
   double given_transmissivity(int cell, int ridge) const;
   double pressure_drop(const Link& link) const;
-  bool is_shut(const Link& link) const;  ///< an end that lets out only, where fluid would enter
-  /// What other fluxes than the one through the link add to its pressure drop, with derivatives by fluxes and
-  /// apertures.
+  bool is_shut(const Link& link) const;  ///< an end with only_out, where fluid would enter
+  /// The part of the pressure drop of a link that other fluxes cause, with derivatives by fluxes and apertures.
   struct FurtherDrop {
     double value = 0;  ///< Pa
     std::vector<std::pair<int, double>> by_flux, by_aperture;
@@ -229,14 +231,14 @@ class FractureFlow : public Component,
   double varying_weight(const Link& link) const;
   void assemble_density(Assembly& assembly, const FluxRows& rows) const;
   bool has_inertia() const { return !options_.law.inertia.is_zero(); }
-  /// How fast fluid flows in a cell, m^2/s: the flux per width, with its derivatives by fluxes. In a plane that at one
-  /// of its ends, in space that of the whole cell.
+  /// The flux per width in a cell, m^2/s, with its derivatives by fluxes: in a plane that at one of its ends, in space
+  /// that of the whole cell.
   struct Speed {
     double value;
     std::vector<std::pair<int, double>> by_flux;
   };
   Speed speed(int cell, int ridge, const Vector& flux) const;
-  /// As inertia takes it: held, or released in part.
+  /// The speed in the term of inertia: held, or released in part.
   Speed speed(int cell, int ridge) const;
   Hydraulic aperture_of_inertia(int cell, const Transmissivity& transmissivity) const;
   std::array<Conductance, 2> inertia(const Link& link) const;
@@ -249,7 +251,7 @@ class FractureFlow : public Component,
   void add_pattern(const Link& link, FluxRows& rows) const;
   double scale_of_row(const Link& link, double conductance, double dt) const;
   void check_names() const;
-  /// Cavitation: without it nothing is empty, and these do nothing.
+  /// Cavitation. Without it nothing is empty, and the following do nothing.
   void check_bound(double pressure, const Origin& where, const std::string& what) const;
   /// `stored_by_filled`: the derivative of what each cell stores by the part of its aperture with fluid.
   void bound_pressure(Assembly& assembly, const Vector& stored_by_filled) const;
@@ -260,11 +262,11 @@ class FractureFlow : public Component,
   }
   StoredFluid stored_fluid(int cell) const;  ///< in this step, m
   std::vector<int> cells_of(const FracturePlace& where) const;
-  /// The end of a cell that is nearer to a point, and how far the point is on the way there from the centre. Where no
-  /// other cell meets this one the point counts as the centre. In a plane alone.
+  /// The end of a cell that is nearer to a point, and how far the point is on the way from the centre to it. If no
+  /// other cell meets this end the point counts as the centre. In a plane only.
   struct Spot {
     int end;        ///< a ridge
-    double to_end;  ///< 0 to 1, except for what counts as equally near
+    double to_end;  ///< 0 to 1, up to the tolerance for equally near ends
   };
   Spot spot(int cell, const Point& at) const;
   /// From the centre of a cell to one of its ends, m^2/(Pa s), with derivatives by the apertures of cells.
@@ -272,7 +274,7 @@ class FractureFlow : public Component,
     int cell;
     double conductance;
     std::vector<std::pair<int, double>> by_aperture;
-    double own = 0;  ///< without what fills a crossing
+    double own = 0;  ///< without the fill of a crossing
     std::vector<std::pair<int, double>> own_by_aperture = {};
   };
   std::vector<HalfCell> halves_at(int ridge, int home) const;
@@ -288,7 +290,7 @@ class FractureFlow : public Component,
     double value;                                     ///< Pa where its pressure is prescribed, else the rate, m^2/s
     std::vector<std::pair<int, double>> shares = {};  ///< in this step
     double level = 0;                                 ///< Pa, of the point above the mean of these cells
-    double bore = 0;  ///< in space, with a radius r: ln(r_e/r)/(2 pi), with the radius r_e that the cells stand for
+    double bore = 0;  ///< in space, with a radius r: ln(r_e/r)/(2 pi), r_e: equivalent_radius
   };
   /// By how much the pressure at the point exceeds the mean of its cells, for each unit of its rate.
   Rise rise_of(const OpenPoint& point) const;
@@ -296,7 +298,7 @@ class FractureFlow : public Component,
   double bore_at(const FracturePlace& where, int cell);
   void share(OpenPoint& point, bool is_given_pressure) const;
   void share_points();
-  /// From the accepted state, so that each pass of a step, and its monolithic solution, have the same shares.
+  /// Shares follow from the accepted state, so they are the same in each pass of a step and in its monolithic solution.
   void share_points_at_start();
   double pressure_at(const OpenPoint& point, double rate) const;  ///< Pa
   void check_points_apart() const;
@@ -354,8 +356,8 @@ class FractureFlow : public Component,
   std::vector<Prescribed> prescribed_;  ///< whole fractures
   std::vector<OpenPoint> injected_points_, prescribed_points_;
   std::map<const FracturePlace*, double> bores_;  ///< OpenPoint::bore, which depends on the mesh alone
-  mutable std::vector<double> let_in_;            ///< m^2/s, at each of prescribed_; found when their rows are replaced
-  std::vector<double> let_in_of_step_;            ///< the same as the flow was solved in this step: in the last substep
+  mutable std::vector<double> let_in_;            ///< m^2/s, at each of prescribed_; set when rows are replaced
+  std::vector<double> let_in_of_step_;            ///< the same at the last solve in this step (or substep)
   double step_length_ = 0;                        ///< s
   EnteringDensity entering_density_ = EnteringDensity::of_step;
   std::vector<char> is_prescribed_;  ///< of each cell

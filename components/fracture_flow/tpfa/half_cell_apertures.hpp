@@ -18,11 +18,11 @@ struct HalfCellAperture {
 
 /// The apertures of the two half cells beside a ridge. The opening is linear between the centres of the two cells: at
 /// the ridge it is w_f = (h_2 w_1 + h_1 w_2)/(h_1 + h_2). The initial aperture is that of each cell. So half cells in
-/// series are exact where initial apertures jump, of second order where the opening is smooth, and let fluid into a
-/// closed cell: with w_2 = 0 and equal lengths the aperture of its half cell is a_2 + w_1/4. Cubed cell values in
-/// series let no fluid in, since 1/(1/a_1^3 + 1/a_2^3) vanishes with a_2, and a fracture could never open into a cell
-/// that has grown. (Codes for hydraulic fractures take the mean of both apertures there: Peirce and Detournay, Comput.
-/// Methods Appl. Mech. Engrg. 197 (2008) 2858.)
+/// series are exact where initial apertures jump, and of second order where the opening is smooth. They let fluid into
+/// a closed cell: with w_2 = 0 and equal lengths the aperture of its half cell is a_2 + w_1/4. With the apertures of
+/// cells, 1/(1/a_1^3 + 1/a_2^3) vanishes with a_2, so a fracture would never open into a new cell. (Codes for hydraulic
+/// fractures take the mean of both apertures there: Peirce and Detournay, Comput. Methods Appl. Mech. Engrg. 197 (2008)
+/// 2858.)
 inline std::array<HalfCellAperture, 2> half_cell_apertures(const CellAperture& first, const CellAperture& second) {
   const auto half = [](const CellAperture& own, const CellAperture& other, bool is_first) {
     const double share = 0.5 * own.half_length / (own.half_length + other.half_length);

@@ -17,13 +17,12 @@ struct ArmAperture {
 
 /// The opening of a fracture is linear through a junction, from its cell on one side to that on the other
 /// (half_cell_apertures); the same holds for two fractures of which one continues the other. The openings of other arms
-/// are independent of one another, since the rock between them may turn and slide. So a half cell without a counterpart
-/// has the aperture of its cell, which is of second order.
-/// A closed arm would then never let fluid in. So each opening at a junction is taken to be at least a tenth of the
-/// widest one there. By the cubic law a closed arm then conducts a thousandth of the widest one: this hardly changes
-/// the flow through other arms, and in the closed arm itself it is an error of half a cell. An arm of one cell between
-/// two junctions consists of two such half cells, and conducts a thousandth all along; a smaller `mesh.fracture_size`
-/// seals it.
+/// are independent of one another, since the rock between them may rotate and slide: their half cells have the aperture
+/// of the cell, which is of second order. Since a closed arm would then never let fluid in, each opening at a junction
+/// is at least a tenth of the widest one there. By the cubic law a closed arm then conducts a thousandth of the widest
+/// one: this hardly changes the flow through other arms, and affects only half a cell of the closed arm. But an arm of
+/// one cell between two junctions consists of two such half cells, so it conducts a thousandth; with a smaller
+/// `mesh.fracture_size` it is closed.
 ///
 /// `partners`: for each cell the place of the cell on the other side, or -1.
 inline std::vector<ArmAperture> junction_apertures(const std::vector<CellAperture>& cells,

@@ -21,9 +21,9 @@ struct Conductance {
 /// Q_ij = C_ij (p_i − p_j) between each two of its cells, C_ij = t_i t_j / sum t (star to mesh; Karimi-Fard, Durlofsky
 /// and Aziz, SPE Journal 9, 2004).
 ///
-/// Where fractures conduct well, differences of pressures have no correct digit, and round-off would determine the flux
-/// that circulates among three cells. So only the fluxes of the cell with the largest conductance, the hub h, follow
-/// from pressures; the others follow from these fluxes: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
+/// Where fractures conduct well, differences of pressures are round-off, which would determine the flux that circulates
+/// among three cells. So only the fluxes of the cell with the largest conductance, the hub h, follow from pressures;
+/// the others follow from these fluxes: Q_ij = (t_i / t_h) Q_hj − (t_j / t_h) Q_hi.
 class JunctionFluxes {
  public:
   /// The conductance t_i, m^2/(Pa s) (in space m^3/(Pa s)), and its derivatives: by the apertures of the junction's
@@ -33,8 +33,8 @@ class JunctionFluxes {
     Vector by_aperture;
     std::vector<std::pair<int, double>> by_flux = {};
   };
-  /// `halves`: one for each of the junction's cells. `fracture_cells`: the number of all cells, by which the columns of
-  /// a further variable lie behind those before.
+  /// `halves`: one for each of the junction's cells. `fracture_cells`: the number of all cells, and of the columns of
+  /// each further variable.
   JunctionFluxes(const Junction& junction, int fracture_cells, std::vector<Half> halves);
 
   /// A flux between two cells: the conductance times the pressure drop for a flux of the hub, or else the sum of shares

@@ -30,11 +30,11 @@ enum class Mean {
   of_reciprocals  ///< harmonic, 1 over the mean of 1 over the values: for conductors in series
 };
 
-/// The mean of a datum on each piece, as a step takes it (value_in_step). A datum that does not depend on the position
-/// is evaluated once for each piece; a datum that does not depend on time is evaluated only once.
+/// The mean of a datum on each piece, evaluated for a step (value_in_step). A datum that does not depend on the
+/// position is evaluated once for each piece; a datum that does not depend on time is evaluated only once.
 class MeansAlong {
  public:
-  /// An object without values, to be assigned to.
+  /// An empty object, to be assigned to.
   MeansAlong() = default;
   /// Evaluates the datum at `start` (s). Throws DataError.
   MeansAlong(const Data& data, std::vector<Piece> pieces, Mean mean, double start);

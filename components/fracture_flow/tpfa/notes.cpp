@@ -236,15 +236,15 @@ void FractureFlow::note_step(Notes& notes, const StepTime&) const {
   const double most = pressure_.now().cwiseAbs().maxCoeff(&largest);
   if (most > beyond_every_load)
     notes.add(pressure_.name() + " beyond every load",
-              fmt::format("{} reaches {:.3g} Pa at {} (no rock bears 10 GPa) look at transmissivity and rates there",
+              fmt::format("{} reaches {:.3g} Pa at {} (no rock sustains 10 GPa) check transmissivity and rates there",
                           pressure_.name(), pressure_.now()[largest], to_text(mesh_.fracture_cells[largest].center)),
               most);
   Eigen::Index least = 0;
   if (const double narrowest = aperture_.now().minCoeff(&least); narrowest < 0)
     notes.add(
         aperture_.name() + " below zero",
-        fmt::format("{} is {:.3g} m at {}, so that there is less than no fluid (its walls overlap by more than the "
-                    "initial aperture) raise initial_aperture, or let walls in contact approach each other less: "
+        fmt::format("{} is {:.3g} m at {}, so its cell has a negative volume of fluid (its walls overlap by more than "
+                    "the initial aperture) raise initial_aperture, or let walls in contact approach each other less: "
                     "the 'closure' of the contact, or the 'stiffness_factor' of contact/penalty",
                     aperture_.name(), narrowest, to_text(mesh_.fracture_cells[least].center)),
         -narrowest);
@@ -252,12 +252,13 @@ void FractureFlow::note_step(Notes& notes, const StepTime&) const {
   Eigen::Index worst = 0;
   const double lacking = (empty_->now() - aperture_.now()).maxCoeff(&worst);
   if (lacking > rounding::far_above * aperture_.now().maxCoeff())
-    notes.add(empty_->name() + " below nothing",
-              fmt::format("{:.3g} m more fluid than there is leave the fracture of '{}' at {} (its pressure is held at "
-                          "the bound, and what is around it takes fluid all the same) raise 'cavitation' to the lowest "
-                          "pressure around, or let less fluid out there",
-                          lacking, name(), to_text(mesh_.fracture_cells[worst].center)),
-              lacking);
+    notes.add(
+        empty_->name() + " below nothing",
+        fmt::format("{:.3g} m more fluid than there is leave the fracture of '{}' at {} (its pressure is held at the "
+                    "bound, but the cells around it still draw fluid from it) raise 'cavitation' to the lowest "
+                    "pressure around, or let less fluid out there",
+                    lacking, name(), to_text(mesh_.fracture_cells[worst].center)),
+        lacking);
 }
 
 }  // namespace sprekk::fracture_flow

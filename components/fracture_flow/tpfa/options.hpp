@@ -34,8 +34,8 @@ struct PrescribedPressure {
   Data pressure;  ///< Pa
 };
 
-/// What holds where fractures end on a side, one of: a pressure, an outer pressure behind what resists, what holds for
-/// the rock, or nothing flows out there.
+/// The condition where fractures end on a side: a pressure, an outer pressure beyond a resistance, the condition of the
+/// rock, or no flow.
 struct EndCondition {
   std::optional<Data> pressure;        ///< Pa
   std::optional<Data> outer_pressure;  ///< Pa
@@ -70,7 +70,7 @@ struct Options {
   std::optional<Data> normal_permeability_value;  ///< m/(Pa s)
   /// m/(Pa s), by Wall: of a wall that has a normal permeability of its own.
   std::array<std::optional<Data>, 2> wall_permeability;
-  std::optional<double> cavitation;    ///< Pa, the pressure below which the fluid does not fall
+  std::optional<double> cavitation;    ///< Pa, the least pressure of the fluid
   VectorData gravity;                  ///< m/s^2
   double fluid_density = 1000;         ///< kg/m^3
   std::vector<std::string> fractures;  ///< names of the fractures with a flow; empty: all
@@ -90,7 +90,7 @@ struct Options {
     const auto found = ends.find(side);
     return found != ends.end() && !found->second.is_closed;
   }
-  /// Whether walls conduct as a given permeability says; otherwise it follows from the aperture.
+  /// Whether the normal permeability of walls is given; otherwise it follows from the aperture.
   bool has_given_walls() const {
     return normal_permeability == "constant" || (wall_permeability[0] && wall_permeability[1]);
   }

@@ -1,4 +1,4 @@
-// Which fluxes leave a fracture cell at one of its ridges.
+// The fluxes out of a fracture cell at one of its ridges.
 #pragma once
 
 #include <utility>
@@ -14,8 +14,8 @@ class Outflows {
   Outflows() = default;  ///< of no cells
   explicit Outflows(const Mesh& mesh);
 
-  /// The ridges through whose fluxes fluid leaves a cell at a ridge, with the signs of these fluxes: at a junction one
-  /// for each of the other cells there, else one. At a junction, `ridge` is any of the ridges there.
+  /// The ridges whose fluxes add up to the outflow of a cell at a ridge, with the signs of these fluxes: at a junction
+  /// one for each of the other cells there, else one. At a junction, `ridge` may be any of the ridges there.
   std::vector<std::pair<int, double>> at(int cell, int ridge) const;
 
  private:

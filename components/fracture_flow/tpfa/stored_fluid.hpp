@@ -1,4 +1,5 @@
-// The fluid that a cell of a fracture stores in a step, from the apertures and pressures at its ends alone.
+// The fluid that a fracture cell stores in a step, as a function of apertures and pressures at the start and end of the
+// step.
 #pragma once
 
 #include <cmath>
@@ -20,7 +21,7 @@ struct Bernoulli {
   }
 };
 
-/// Which density the fluid that enters has: the mean one of the step, or that at its end, as in a stage of a scheme of
+/// The density of the fluid that enters: the mean one of the step, or that at its end, as in a stage of a scheme of
 /// second order (HeedsStages).
 enum class EnteringDensity { of_step, at_end };
 
@@ -32,12 +33,12 @@ struct StoredFluid {
 /// A cell holds the mass rho(p) a, with rho proportional to exp(c p). The volume that enters, at the pressure of the
 /// cell, is the change of this mass over the mean density of the step:
 ///   (rho_1 a_1 − rho_0 a_0)/rho_mean = (a_1 − a_0) b + e a_1,   e = c (p_1 − p_0),
-/// with b = B(e) for the logarithmic mean of both densities. So the mass depends on the state alone: where nothing
-/// enters, rho a stays to the last digit, whatever opens or closes the cell in however many steps; only differences of
-/// pressure count, so a compressibility that changes stores nothing.
+/// with b = B(e) for the logarithmic mean of both densities. So the mass depends on the state alone: if nothing enters,
+/// rho a is constant to round-off, however the cell opens and closes and in however many steps. Only differences of
+/// pressure count, so a change of the compressibility stores nothing.
 ///
-/// Where aperture and pressure rise together, or fall, the fluid moves the walls, and both change in proportion: then
-/// the mean density along this line, b = 1 − e/2, makes a step exact for walls that yield linearly. Both values of b
+/// Where aperture and pressure rise or fall together, the fluid moves the walls, and both change in proportion: then
+/// the mean density along this line, b = 1 − e/2, makes a step exact for walls that respond linearly. Both values of b
 /// differ by terms of second order in e only. `before`, `after`: the apertures a_0 and a_1, m; `change`: p_1 − p_0, Pa.
 inline StoredFluid stored_fluid(double before, double after, double change, double compressibility,
                                 EnteringDensity density) {

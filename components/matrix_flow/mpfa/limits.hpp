@@ -13,10 +13,11 @@ struct MpfaLimits {
   /// Largest amount of a mode (times the root of the edge length) for cell pressures that differ by 1: 5 to 8 on good
   /// meshes.
   double largest_share = 20;
-  /// Largest difference of the permeability of a cell from that at a tip, relative: the tip's flow is that in even
-  /// rock.
+  /// Largest relative difference of the permeability of a cell from that at a tip, since the flow around a tip is that
+  /// in homogeneous rock.
   double alike = 0.2;
-  /// Cells of one region count as alike instead: where the permeability follows the state, a limit would be a jump.
+  /// Instead, cells of one region are alike: with a permeability that follows the state, a limit would make fluxes
+  /// jump.
   bool alike_in_region = false;
   EndLimits near = {};
 };

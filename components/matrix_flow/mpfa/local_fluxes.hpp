@@ -22,10 +22,10 @@ namespace sprekk::matrix_flow {
 /// Stabilizer).
 class LocalFluxes {
  public:
-  /// The change of a local problem that would gain energy. `points`: other continuity points. `damping`: the part of
-  /// the pressures that is not linear flows by the symmetric fluxes of `blend`. Both stay exact for linear pressures.
-  /// `blend`: all fluxes are mixed with fluxes that are symmetric and positive definite in each subcell; these are
-  /// exact for linear pressures only in the cells that are named above.
+  /// The change of a local problem that would gain energy. `points`: other continuity points. `damping`: for the part
+  /// of the pressures that is not linear, the symmetric fluxes of `blend` are used. Both stay exact for linear
+  /// pressures. `blend`: all fluxes are mixed with fluxes that are symmetric and positive definite in each subcell;
+  /// these are exact for linear pressures only in the cells that are named above.
   enum class Stabilizer { none, points, damping, blend };
 
   /// Whether by_mobility is to be called.
@@ -40,16 +40,16 @@ class LocalFluxes {
   const double* pressure(int subface) const { return pressures_.data() + subface * columns_; }
   /// The flux through a subface out of its first cell (m^2/s; m^3/s in three dimensions).
   const double* flux(int subface) const { return fluxes_.data() + subface * columns_; }
-  /// What the fluxes through all subfaces, and the pressures at them, change by with the mobility of a subcell, where
-  /// it changes by `change` (m^2/(Pa s)) and the columns have the values `given`. What a stabilizer does to a region
-  /// stays as it is.
+  /// The changes of the fluxes through all subfaces, and of the pressures at them, when the mobility of a subcell
+  /// changes by `change` (m^2/(Pa s)), for columns with the values `given`. Stabilizers are held.
   struct Change {
     std::vector<double> flux, pressure;  ///< m^2/s, Pa
   };
   void by_mobility(const InteractionRegion& region, const std::vector<FlowCondition>& conditions, int subcell,
                    const Tensor& change, const std::vector<double>& given, Change& result) const;
   int columns() const { return columns_; }
-  /// Where the pressures of both sides of a subface agree; its part may differ from that of continuity_point.
+  /// The point of a subface where the pressures of both sides agree; a stabilizer may have moved it from
+  /// continuity_point.
   const ContinuityPoint& point(int subface) const { return points_[subface]; }
 
  private:

@@ -17,7 +17,7 @@ namespace sprekk::matrix_flow {
 FluxOperators discretize_mpfa(const Mesh& mesh, const std::vector<Tensor>& mobility,
                               const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 
-/// Like discretize_mpfa, with other limits than the usual ones.
+/// discretize_mpfa with limits other than the default ones.
 FluxOperators discretize_mpfa_with(const MpfaLimits& limits, const Mesh& mesh, const std::vector<Tensor>& mobility,
                                    const std::vector<FlowCondition>& conditions, const std::vector<char>& nodes = {});
 

@@ -9,10 +9,10 @@
 
 namespace sprekk::matrix_flow {
 
-/// The difference between the singular flow (TipFlow) and what a local problem with linear pressures makes of it. With
-/// linear pressures around a tip, a fracture exchanges fluid with the rock like a fracture that is longer or shorter by
-/// a part of an edge. So this difference is added to the fluxes and pressures of a local problem. It vanishes for
-/// linear pressures, for which the method stays exact.
+/// The difference between the singular flow (TipFlow) and its approximation by a local problem with linear pressures.
+/// It is added to the fluxes and pressures of the local problem: with linear pressures around a tip alone, a fracture
+/// exchanges as much fluid as one that is longer or shorter by a part of an edge. It vanishes for linear pressures, for
+/// which the method stays exact.
 class TipCorrection {
  public:
   TipCorrection(const TipFlow& flow, const Mesh& mesh, const InteractionRegion& region, const LocalFluxes& local,
@@ -25,7 +25,7 @@ class TipCorrection {
 
  private:
   double mobility_of(int face) const;  ///< the mean of its cells, m^2/(Pa s)
-  int side_of(int face) const;         ///< on which the part of a face in the region is seen
+  int side_of(int face) const;         ///< on which the region sees its part of the face
   Point continuity_point(int subface) const;
   TipFlow::Modes missing(const double* coefficients, TipFlow::Modes exact) const;
 

@@ -17,7 +17,7 @@ namespace sprekk::matrix_flow {
 /// Homogeneous Fluids through Porous Media, 1937, ch. IV), two modes:
 ///   to a fracture along which the pressure is constant: p = Re sqrt(z), with a flux through its walls like 1/sqrt(r);
 ///   around a fracture that nothing flows through: p = Im sqrt(z), with a jump like sqrt(r).
-/// In space these are the flows across the rim, along which they are the same. The amounts of the modes follow from the
+/// In space these are flows in planes normal to the rim, constant along it. The amounts of the modes follow from the
 /// pressures of the cells around the tip, by a least-squares fit of the modes and of linear pressures.
 class TipFlow {
  public:
@@ -25,8 +25,8 @@ class TipFlow {
   using Modes = Eigen::RowVector2d;
 
   /// The flow around a tip (a node; in space of a rim). std::nullopt unless the rock at the tip is isotropic and nearly
-  /// the same all around (resembles), and the fit has enough cells to tell the modes from linear pressures. `cells`:
-  /// the cells of the fit (cells_around_tips).
+  /// homogeneous (resembles), and the fit has enough cells to distinguish the modes from linear pressures. `cells`: the
+  /// cells of the fit (cells_around_tips).
   static std::optional<TipFlow> find(const Mesh& mesh, int tip, const std::vector<int>& cells,
                                      const std::vector<Tensor>& mobility, const MpfaLimits& limits = {});
 

@@ -1,4 +1,4 @@
-// What the ends of fractures change in local problems.
+// The local problems near the ends of fractures.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace sprekk::matrix_flow {
 
-/// Fluxes and pressures of local problems by the pressures of cells. The singular flow around the tips of fractures is
-/// added near them (TipFlow, TipCorrection), by the pressures of all cells around a tip. In space a tip is a node of a
-/// rim, around which the flow is that across the rim.
+/// Fluxes and pressures of local problems by the pressures of cells. Near the tips of fractures they include the
+/// singular flow (TipFlow, TipCorrection), which depends on the pressures of all cells around a tip. In space a tip is
+/// a node of a rim.
 class Tips {
  public:
   /// `nodes`: those that are discretized; empty means all. The mesh and what describes it outlive the tips.

@@ -1,4 +1,4 @@
-// Points around a cell whose pressures are known, and vectors as sums of the arrows to them.
+// Vectors from the centre of a cell to points with known pressures, and conormals as sums of such vectors.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace sprekk::matrix_flow {
 
-/// An arrow from the centre of a cell to a point, and how much higher the pressure is there:
+/// A vector from the centre of a cell to a point, and by how much the pressure there exceeds that of the cell:
 ///   own · (pressure of the cell) + of_cell · (pressure of `cell`) + of_boundary · b + of_change · s of `face`,
 /// with b and s of FluxOperators. Exact for linear pressures, across a face at which the mobility jumps, too. Without
-/// prescribed fluxes it is a multiple, not negative, of the difference to another pressure.
+/// prescribed fluxes the excess is a nonnegative multiple of the difference from another pressure.
 struct Ray {
   Point arrow;  ///< m
   double own = 0;
@@ -32,7 +32,7 @@ using RaySum = std::vector<std::pair<double, Ray>>;
 /// - To the centre of a face with a prescribed pressure.
 /// - Along the conormal to the line of a face with a prescribed flux: this flux is the change of pressure there.
 ///
-/// Where no two of these enclose the vector there are more:
+/// Where no two of these enclose the vector, further rays are used:
 /// - to the ends of faces with a pressure, and against the conormals of faces with a flux;
 /// - to the centres of cells that share a node and have a similar mobility, and of their faces with a pressure;
 /// - at last to the centres of all cells that share a node.
@@ -41,10 +41,11 @@ class CellRays {
   CellRays(const Mesh& mesh, const std::vector<Tensor>& mobility, const std::vector<FlowCondition>& conditions,
            int cell);
 
-  /// The vector as the sum of two rays, or nothing where there are no such rays. Of all pairs it takes the one of
-  /// least length, which are the neighbours of the vector in direction.
+  /// The vector as the sum of two rays, or nothing where there are no such rays. Of all pairs it takes the one with the
+  /// least sum of weighted lengths, in which distant points count more: as a rule the rays next to the vector on both
+  /// sides.
   std::optional<RaySum> sum(const Point& vector) const;
-  /// The same without the rays against the conormal of `face`.
+  /// The same sum without rays against the conormal of `face`.
   std::optional<RaySum> sum_without_return(const Point& vector, int face) const;
 
  private:

@@ -14,12 +14,12 @@ namespace sprekk::matrix_flow {
 ///
 /// Triangles, parallelograms, tetrahedra, parallelepipeds and right wedges: Raviart and Thomas 1977, Nédélec 1980,
 /// exactly. On other quadrilaterals, wedges and hexahedra the velocities that the map from the reference cell gives
-/// (Piola) do not contain the constant ones. There, M takes the power of constant velocities from its exact value, and
-/// only that of the other velocities from the map (an inner product of the mimetic finite differences of Brezzi,
-/// Lipnikov and Simoncini, Math. Models Methods Appl. Sci. 15 (2005) 1533). For parallelograms this is the same, so
-/// nothing jumps when a parallelogram is bent. Where faces are bent, in space, the products of face centres and area
-/// vectors do not quite add up to the volume, and M, which takes their inverse, is not quite symmetric. Throws
-/// std::runtime_error where they are so bent that M would not be positive.
+/// (Piola) do not contain the constant ones. There, M is exact for constant velocities, and only for the other
+/// velocities it comes from the map (an inner product of the mimetic finite differences of Brezzi, Lipnikov and
+/// Simoncini, Math. Models Methods Appl. Sci. 15 (2005) 1533). For parallelograms both agree, so M is continuous when a
+/// parallelogram is bent. Where faces are bent, in space, the products of face centres and area vectors do not quite
+/// add up to the volume, and M, which takes their inverse, is not quite symmetric. Throws std::runtime_error where they
+/// are so bent that M would not be positive.
 FluxMass flux_mass(const Mesh& mesh, int cell, const Tensor& mobility);
 
 /// The same by quadrature that lumps it: diagonal in acute triangles and in rectangles whose sides are principal axes
@@ -30,11 +30,11 @@ FluxMass flux_mass(const Mesh& mesh, int cell, const Tensor& mobility);
 /// there the lumped matrix would not be positive. Tetrahedra and wedges are not lumped.
 LumpedFluxMass lumped_flux_mass(const Mesh& mesh, int cell, const Tensor& mobility);
 
-/// What steps that are short against the diffusion time of a cell add to flux_mass. With M alone, some entries of the
-/// fluxes' conductances M^-1 have the wrong sign, and where the cell stores much more than flows in a step, the fluxes
-/// through the other faces of a cell oppose the one that enters it (Hoteit, Mosé, Philippe, Ackerer and Erhel, Int. J.
-/// Numer. Meth. Engng 55 (2002) 1373: below h^2/(6 D) in one dimension). The balance of the cell acts on its fluxes as
-/// dt/(S V) 1 1^T beside M does, so what a short step lacks of it is added to M:
+/// The addition to flux_mass in steps that are short compared with the diffusion time of a cell. With M alone, some
+/// entries of the conductances M^-1 have the wrong sign; if the cell stores much more than flows in a step, fluxes
+/// through its other faces oppose the one that enters it (Hoteit, Mosé, Philippe, Ackerer and Erhel, Int. J. Numer.
+/// Meth. Engng 55 (2002) 1373: below h^2/(6 D) in one dimension). The balance of the cell acts on its fluxes like an
+/// addition dt/(S V) 1 1^T to M. A short step has too little of it, and the difference is added to M:
 /// - triangles, tetrahedra, wedges: `added` = `until` 1 1^T, with the least number `until` for which M + added has an
 ///   inverse without positive entries off the diagonal; in triangles without obtuse angles that is the lumped matrix
 ///   except for the point of p. It does not exist from a right angle on, and is at most 3/(1^T M^-1 1)

@@ -10,18 +10,18 @@
 
 namespace sprekk::matrix_flow {
 
-/// What the flow around a tip adds to the equations of a cell: M F = p − h + missing · amounts, with the amounts of its
-/// modes from the pressures around the tip (TipFlow::share).
+/// The term of the flow around a tip in the equations of a cell: M F = p − h + missing · amounts. The amounts of the
+/// modes follow from the pressures around the tip (TipFlow::share).
 struct TipTerm {
   const TipFlow* flow = nullptr;
   Eigen::Matrix<double, Eigen::Dynamic, 2, 0, most_faces, 2> missing;  ///< Pa for amounts of 1 Pa/m^0.5, one row a face
 };
 
-/// The terms of all cells near tips. With piecewise linear pressures alone a fracture exchanges fluid with the rock
-/// like one that is longer or shorter by a part of a cell. So each cell whose corners all lie near one tip (in space,
-/// one rim) gets what its equation misses for the two modes of the flow, with pressures at the centres of cells and
-/// faces and fluxes in closed form. These terms vanish for linear pressures. As in MPFA, only as much of them is taken
-/// as gains no energy.
+/// The terms of all cells near tips. With piecewise linear pressures alone a fracture exchanges as much fluid as one
+/// that is longer or shorter by a part of a cell. So the residual of the two modes of the flow is added to the
+/// equations of each cell whose corners all lie near one tip (in space, one rim), with their pressures at the centres
+/// of cells and faces and their fluxes in closed form. These terms vanish for linear pressures. As in MPFA, they are
+/// reduced where they would gain energy.
 class TipTerms {
  public:
   /// `masses`: flux_mass of every cell.

@@ -9,8 +9,8 @@
 
 namespace sprekk::couplers {
 
-/// Interpolates values of cells along a fracture. Between the centres of cells on one straight piece of the fracture
-/// values are linear; beyond the outermost centres of a piece they are constant, so that values are not mixed across a
+/// Interpolates values of cells along a fracture. On a straight piece of the fracture values are linear between the
+/// centres of cells; beyond the outermost centres of a piece they are constant, so that values are not mixed across a
 /// kink or a junction with other fractures.
 class AlongFracture {
  public:
@@ -19,8 +19,8 @@ class AlongFracture {
   /// The (normal, tangential) values of all fracture cells of the mesh, at s (m), in global components.
   Point at(double s, const Vector& values) const;
   int index_at(double s) const { return cells_[cell_at(s)].index; }  ///< of the fracture cell at s (m)
-  /// As `at`, for displacement jumps, which decrease linearly to 0 at ends that are tips, and are 0 beyond them.
-  /// Towards a junction they change linearly to their value there, see JumpAtJunction.
+  /// As `at`, for displacement jumps: they decrease linearly to 0 at tips, and are 0 beyond. Towards a junction they
+  /// change linearly to their value there (JumpAtJunction).
   Point jump(double s, const Vector& values) const;
 
  private:

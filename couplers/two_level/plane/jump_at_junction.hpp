@@ -7,10 +7,10 @@
 
 namespace sprekk::couplers {
 
-/// Extrapolates jumps to a junction so that the displacement there is continuous. On a way around a junction all jumps
-/// must add up to zero. Jumps are extrapolated from the centres of cells, linearly from two, or as a constant where a
-/// cell is alone on its straight piece, and their sum vanishes only to the order of the cell length. So what is left of
-/// it is subtracted from them in equal parts.
+/// Extrapolates jumps to a junction so that the displacement there is continuous. Then all jumps on a path around the
+/// junction add up to zero. Jumps that are extrapolated from the centres of cells (linearly from two, or as a constant
+/// where a cell is alone on its straight piece) do so only to the order of the cell length, so their sum is subtracted
+/// from them in equal parts.
 class JumpAtJunction {
  public:
   JumpAtJunction(const Mesh& mesh, const Junction& junction);

@@ -12,7 +12,7 @@ namespace sprekk::couplers {
 /// their values, exist on both sides of the fracture.
 class NodalValues {
  public:
-  /// How the value of a node follows from values around it.
+  /// How the value of a node is computed from values around it.
   enum class From {
     cells_and_faces,  ///< a linear fit to the cells, and faces with one cell, around the node (least squares, weights
                       ///< 1/distance^2): exact for linear fields

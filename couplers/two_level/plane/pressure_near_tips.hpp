@@ -14,16 +14,16 @@ namespace sprekk::couplers {
 
 /// The pressure in the cells of some rings around each tip. Of all pressures that have the means of the cells, the
 /// given pressures at the walls, and given values on the rim of the rings, it is the one with the least integral of its
-/// squared gradient. So it solves −laplace p = f with one f in each cell, which is the equation of the cells
-/// themselves: near the tip it varies with sqrt(r), as the pressure does. It is linear in the given values, and
-/// continuous in the geometry where the topology of the mesh stays. It is found by linear elements on a triangulation
-/// of the cells, in which the nodes of an edge that ends at a tip are at the parts (i/n)^2 of its length from there.
+/// squared gradient. So it solves −laplace p = f with one f in each cell, as the balances of cells do, and varies like
+/// sqrt(r) near the tip. It is linear in the given values, and continuous in the geometry for one topology of the mesh.
+/// It is found by linear elements on a triangulation of the cells, in which the nodes of an edge that ends at a tip are
+/// at the parts (i/n)^2 of its length from there.
 class PressureNearTips {
  public:
   /// Keeps a reference to the mesh. Throws std::runtime_error where a pressure is not determined.
   explicit PressureNearTips(const Mesh& mesh);
   ~PressureNearTips();
-  /// What the pressure follows from, Pa: means of the cells, pressures at the walls (none where the wall lets nothing
+  /// The data of the pressure, Pa: means of the cells, pressures at the walls (none where the wall lets nothing
   /// through), and values of the nodes of the mesh, which are taken on the rim. All must stay until the next call.
   struct Given {
     Vector cells;
@@ -40,9 +40,9 @@ class PressureNearTips {
   };
   /// Nothing where the cell is in no ring.
   std::optional<Place> place(int cell, const Point& x) const;
-  /// A pressure, and its weight against that of a smooth fit: 1 where it stays within the range of the given pressures.
-  /// Where fluid has reached less than about an eighth of a cell from the walls, the means do not determine how the
-  /// pressure falls; what is found then leaves that range, and has a smaller weight, or none.
+  /// A pressure, and its weight against that of a smooth fit. The weight is 1 if the pressure stays within the range of
+  /// the given ones. If fluid has reached less than about an eighth of a cell from the walls, the means do not
+  /// determine how the pressure falls; the solution then leaves this range, and its weight is smaller, or 0.
   struct Value {
     double value, weight;
   };

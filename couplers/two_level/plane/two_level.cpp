@@ -104,8 +104,9 @@ class TwoLevel : public Coupler, public FollowsMesh, public TipSurroundings {
                     fluid_left_out_, name()));
   }
 
-  /// Notes tips that outrun leak-off. In the frame of a tip that moves with the speed V the fluid of the rock reaches
-  /// c/V from the walls; where cells are longer, the leak-off next to the tip is that of a whole cell, and too small.
+  /// Adds a note on tips that are too fast for the mesh to resolve leak-off. At a tip with the speed V leak-off reaches
+  /// about c/V from the walls (c: diffusivity); if cells are longer, the leak-off next to the tip is that of a whole
+  /// cell, and too small.
   void note_step(Notes& notes, const StepTime&) const override {
     const MatrixFluid* rock_fluid = fluid_ ? fluid_->rock_fluid() : nullptr;
     if (!moving_ || !rock_fluid) return;
@@ -283,7 +284,8 @@ class TwoLevel : public Coupler, public FollowsMesh, public TipSurroundings {
   std::optional<double> propagation_threshold() const override { return options_.propagation_threshold; }
 
  private:
-  /// What is fitted to cells: the stress that pores add, the pressure, and by how much the one changes with the other.
+  /// The values that are fitted to cells: the stress by the pore pressure, the pressure, and the derivative of the one
+  /// by the other.
   enum PoreValue { of_stress, of_pressure, of_stress_by_pressure, pore_values };
 
   /// The pressure of a fluid that passes the walls and loads the rock, or nullptr.

@@ -3,7 +3,7 @@
 
 namespace sprekk {
 
-/// While an object of this class lives, solvers of small systems leave their orderings to later ones: the systems of
+/// While an object of this class lives, orderings of small systems are shared by later solvers, since the systems of
 /// models on meshes of one topology have one pattern. An ordering follows from the pattern alone, so solutions keep
 /// their bits. Only on one process, and for one thread.
 class KeptOrderings {

@@ -1,5 +1,5 @@
-// How a preconditioner of the bulk treats the unknowns on fractures: they are solved for exactly, and eliminated from
-// the blocks of the bulk approximately.
+// The parts of a system for a preconditioner: unknowns on fractures are solved for exactly, and eliminated from the
+// blocks of the bulk approximately.
 #pragma once
 
 #include <vector>

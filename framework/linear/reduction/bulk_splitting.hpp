@@ -34,7 +34,7 @@ class BulkSplitting {
   const std::vector<char>& held() const { return held_; }
   int bulk_size() const { return bulk_.local.cols(); }
   int local_size() const { return ff.matrix.rows(); }
-  /// Whether an unknown of F belongs to the bulk, but is held by F; whether there are some.
+  /// Whether an unknown of F is one of the bulk (`held`); whether there are any.
   bool is_held(int unknown) const { return is_held_local_[unknown]; }
   bool has_held() const { return !is_held_local_.empty(); }
   /// Of a vector of this process's rows: those of B, and all of F.

@@ -6,8 +6,8 @@
 
 namespace sprekk {
 
-/// The places, in a long list of values, of those of a shorter list. Places that follow one another are one piece, so
-/// that rows of a matrix take little memory, and are compared and copied as a whole.
+/// For each value of a list its place in a longer list. Places that follow one another are one piece, so that rows of a
+/// matrix take little memory, and are compared and copied as a whole.
 class Excerpt {
  public:
   /// The next value of the shorter list is at this place of the long one.

@@ -1,4 +1,4 @@
-// Solves with the sum of balances in place of one of them, where large exchanges between rows hide what rows store.
+// Solves with the sum of balances in place of one of them if large exchanges between rows hide their storage.
 #pragma once
 
 #include <memory>
@@ -17,11 +17,10 @@ namespace sprekk {
 /// rows, in which D is absent, takes the place of the first of them: the equations are equivalent, and S keeps its
 /// digits. Rows are summed where S is below 1e-6 of C, and entries that lead out of the rows below 1e-3. A flux that
 /// another row prescribes, such as the rate of a well, does not count as leading out: a multiple of that row takes it
-/// out of the sum. A sum that is zero belongs to a singular matrix, whose constant mode nothing holds.
-/// In systems with a sum, the first row of every group that may be summed gets all columns of such a sum, as zeros
-/// where it has no entry. So the pattern does not depend on which groups the values single out, and one ordering serves
-/// all systems. It depends on no earlier system, so that a run that is continued has the bits of one that was not
-/// interrupted.
+/// out of the sum. A zero sum means a singular matrix, whose constant mode nothing determines. In systems with a sum,
+/// the first row of every group that may be summed gets all columns of such a sum, as zeros where it has no entry. So
+/// the pattern does not depend on which groups are summed, and one ordering serves all systems. It does not depend on
+/// earlier systems either, so a restarted run has the bits of one that was not interrupted.
 class SummedBalances final : public LinearSolver {
  public:
   explicit SummedBalances(std::unique_ptr<LinearSolver> solver);

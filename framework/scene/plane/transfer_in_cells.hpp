@@ -1,4 +1,4 @@
-// Values on nodes and faces that go over to another mesh.
+// Transfer of values on nodes and faces to another mesh.
 #pragma once
 
 #include "framework/field/field.hpp"

@@ -11,8 +11,7 @@ namespace sprekk {
 class DivergingSteps {
  public:
   /// To be called when the passes of `step` diverge; `factor`: by which changes grow from pass to pass. Returns whether
-  /// shortening has not helped: whether the step is much shorter than another one from the same start that diverged
-  /// hardly faster.
+  /// shortening does not help: whether another step from the same start was much longer, but diverged hardly faster.
   bool is_no_better(const StepTime& step, double factor);
   /// The largest factor of any step from the start of the last one. To be called after is_no_better.
   double largest() const;

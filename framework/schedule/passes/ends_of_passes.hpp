@@ -1,4 +1,4 @@
-// How residuals, errors of balances and changes show that further passes gain nothing.
+// Tests on residuals, errors of balances and changes whether further passes gain nothing.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace sprekk {
 bool hardly_fall(const std::vector<double>& values, std::size_t last_passes);
 /// Whether errors of balances no longer fall, but scatter. Where passes converge slowly, errors fall in each pass.
 bool are_round_off_of_balances(const std::vector<double>& imbalances);
-/// Whether the error that passes leave is below a bound, from what the last two of them have changed.
+/// Whether the error of the passes is below a bound, estimated from the changes by the last two.
 bool is_error_below(double bound, double change, double change_before);
 /// ", or ask for 1e-07 in 'until'": the tolerance to suggest where passes do not get below this residual; empty where
 /// none is sensible.

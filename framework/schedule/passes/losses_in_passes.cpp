@@ -11,8 +11,8 @@ namespace sprekk {
 std::optional<double> LossesInPasses::size_to_repeat(const StepTime& step, double at) {
   SPREKK_EXPECT(std::isfinite(at), at);
   constexpr double most_of_the_way = 0.9;  // the end is known as well as loads are linear in the step
-  // Steps that come nearer by less than half of what they advance would come nearer by a factor each, and none gets
-  // there.
+  // If the distance to the end falls by less than half of each advance, it falls by a factor in each step, and no step
+  // reaches the end.
   const bool is_again = last_ && step.start == last_->start;
   const bool stays_ahead = last_ && step.start > last_->start && at - last_->at < 0.5 * (step.start - last_->start);
   last_ = {step.start, at};

@@ -1,4 +1,4 @@
-// How much each pass of an iteration changes, and whether the passes converge.
+// The changes of fields by each pass of an iteration, and whether the passes converge.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,7 @@ class PassChanges {
   /// Whether changes have grown in each of ten passes, and clearly over all ten.
   bool only_grow() const;
   /// Whether each of the last two passes has changed ten times as much as the one before, and the last one more than
-  /// all values. Such passes leave the region in which the equations are linear, and may go on there without growing
-  /// further.
+  /// all values. Such passes leave the region in which the equations are nearly linear, where changes may stop growing.
   bool explode() const;
   /// Whether changes have stayed large over many passes without falling: a cycle, or an iteration that has diverged
   /// until other equations bounded it.

@@ -1,4 +1,4 @@
-// When an accelerated iteration goes on without acceleration.
+// When an accelerated iteration continues without acceleration.
 #pragma once
 
 #include <limits>
@@ -7,8 +7,8 @@ namespace sprekk {
 
 /// An accelerator learns from differences of passes. Once these are no larger than the errors of the solves inside, the
 /// accelerator learns from noise and may keep passes from converging, while plain passes would converge. So after some
-/// passes without progress the next passes are plain. Where plain passes move away (an iteration that converges only if
-/// it is accelerated), they are taken back, and not tried again in the step.
+/// passes without progress the next passes are plain. If plain passes diverge (an iteration that converges only with
+/// acceleration), they are undone, and not tried again in the step.
 class StalledAcceleration {
  public:
   /// The kind of the next pass. `back`: an accelerated pass from the values before the first plain pass.
@@ -28,7 +28,7 @@ class StalledAcceleration {
     first_ = best_ = change;
     return Next::plain;
   }
-  /// To be called when the discrete state has changed: what earlier passes have shown does not hold for later ones.
+  /// To be called when the discrete state has changed: earlier passes then say nothing about later ones.
   void forget() { *this = {}; }
 
  private:

@@ -126,7 +126,7 @@ TEST(UnusualValues, HaveOneNoteInASceneWithoutDimensions) {
       "young_modulus: 1 Pa, poisson_ratio: 0.25, porosity: 0.5, fluid_compressibility: 1 1/Pa, permeability: 1 m^2, "
       "viscosity: 1 Pa*s, friction: 0.6, dilation_angle: 5 deg";
   EXPECT_THAT(notes_of(scene_with(of_order_one)),
-              ElementsAre(HasSubstr("the scene is taken for one without dimensions")));
+              ElementsAre(HasSubstr("the scene is treated as one without dimensions")));
   // What has no dimension anyhow keeps its own note.
   EXPECT_THAT(notes_of(scene_with(std::string(of_order_one).replace(std::string(of_order_one).find("0.6"), 3, "60"))),
               testing::UnorderedElementsAre(HasSubstr("without dimensions"), HasSubstr("'friction' is '60'")));
