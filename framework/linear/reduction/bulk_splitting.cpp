@@ -224,9 +224,11 @@ void BulkSplitting::take_sums(const std::vector<int>& sums) {
   if (sums == sums_) return;
   sums_ = sums;
   SPREKK_ASSERT(are_indices(sums_, static_cast<long>(place_.size())), place_.size());
-  bulk_.sums.clear();
+  std::vector<int> of_bulk;
   for (const int sum : sums_)
-    if (!is_local_[sum]) bulk_.sums.push_back(place_[sum]);
+    if (!is_local_[sum]) of_bulk.push_back(place_[sum]);
+  if (of_bulk == bulk_.sums) return;
+  bulk_.sums = std::move(of_bulk);
   bulk_.pattern_number = new_system_number();
 }
 

@@ -143,15 +143,39 @@ std::map<int, double> sum_of(const SparseMatrix& a, const std::vector<int>& rows
   return sum;
 }
 
+/// Of rows of this process, by their places: entries that stand in place of those that they had, or are added as zeros.
+using OtherEntries = std::map<int, std::map<int, double>>;
+
 /// Adds, as zeros, the entries that rows have where they are sums: for the first row of each group that exchanges may
 /// join, those that the sum of the group may have. Which groups are summed follows from values, these entries do not.
-void add_pattern_of_sums(const SparseMatrix& all, const LinearSystem& system, std::vector<Triplet>& entries) {
+void add_pattern_of_sums(const SparseMatrix& all, const LinearSystem& system, OtherEntries& others) {
   for (const PossibleSum& sum : possible_sums(all, system.blocks)) {
     const auto found = std::lower_bound(system.rows.begin(), system.rows.end(), sum.rows.front());
     if (found == system.rows.end() || *found != sum.rows.front()) continue;
     const int place = static_cast<int>(found - system.rows.begin());
-    for (const int column : sum.columns) entries.emplace_back(place, column, 0.0);
+    const auto [other, is_new] = others.try_emplace(place);
+    if (is_new)
+      for (SparseMatrix::InnerIterator entry(system.local, place); entry; ++entry)
+        other->second[static_cast<int>(entry.col())] = entry.value();
+    for (const int column : sum.columns) other->second.try_emplace(column, 0.0);
   }
+}
+
+SparseMatrix with_other_entries(const SparseMatrix& a, const OtherEntries& others) {
+  Eigen::Index entries = a.nonZeros();
+  for (const auto& [row, other] : others) entries += static_cast<Eigen::Index>(other.size());
+  SparseMatrix result(a.rows(), a.cols());
+  result.reserve(entries);
+  for (int row = 0; row < a.rows(); ++row) {
+    result.startVec(row);
+    if (const auto other = others.find(row); other != others.end()) {
+      for (const auto& [column, value] : other->second) result.insertBack(row, column) = value;
+      continue;
+    }
+    for (SparseMatrix::InnerIterator entry(a, row); entry; ++entry) result.insertBack(row, entry.col()) = entry.value();
+  }
+  result.finalize();
+  return result;
 }
 
 }  // namespace
@@ -251,7 +275,7 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
   const bool is_alone = parallel::size() == 1 && system.local.rows() == system.local.cols();
   const SparseMatrix gathered = is_alone ? SparseMatrix() : local_rows(system);
   const SparseMatrix& rows = is_alone ? system.local : gathered;
-  std::map<int, std::map<int, double>> replaced;
+  OtherEntries replaced;
   std::vector<char> is_local;
   for (std::vector<int>& group : exchanging_rows(rows, system.blocks)) {
     Sum sum;
@@ -280,19 +304,11 @@ LinearReport SummedBalances::factor(const LinearSystem& system) {
   summed.blocks = system.blocks;
   summed.sums = system.sums;
   for (const Sum& sum : sums_) summed.sums.push_back(sum.rows.front());
-  std::vector<Triplet> entries;
-  entries.reserve(system.local.nonZeros());
-  for (int row = 0; row < system.local.rows(); ++row) {
-    const auto sum = replaced.find(row);
-    const bool is_sum = sum != replaced.end();
+  for (auto& [row, sum] : replaced)
     for (SparseMatrix::InnerIterator entry(system.local, row); entry; ++entry)
-      entries.emplace_back(row, static_cast<int>(entry.col()), is_sum ? 0.0 : entry.value());
-    if (is_sum)
-      for (const auto& [column, value] : sum->second) entries.emplace_back(row, column, value);
-  }
-  add_pattern_of_sums(rows, system, entries);
-  summed.local = SparseMatrix(system.local.rows(), system.local.cols());
-  summed.local.setFromTriplets(entries.begin(), entries.end());
+      sum.try_emplace(static_cast<int>(entry.col()), 0.0);
+  add_pattern_of_sums(rows, system, replaced);
+  summed.local = with_other_entries(system.local, replaced);
   return solver_->factor(summed);
 }
 
