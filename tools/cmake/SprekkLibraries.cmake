@@ -28,9 +28,9 @@ find_library(DMUMPS_LIBRARY dmumps REQUIRED)
 add_library(mumps_library INTERFACE)
 target_link_libraries(mumps_library INTERFACE ${DMUMPS_LIBRARY} mpi_library)
 
-find_package(LAPACK REQUIRED)
+find_package(BLAS REQUIRED)
 add_library(blas_library INTERFACE)
-target_link_libraries(blas_library INTERFACE LAPACK::LAPACK BLAS::BLAS ${CMAKE_DL_LIBS})
+target_link_libraries(blas_library INTERFACE BLAS::BLAS ${CMAKE_DL_LIBS})
 
 find_package(Trilinos REQUIRED COMPONENTS Tpetra Belos Ifpack2 MueLu Zoltan2)
 add_library(trilinos_library INTERFACE)

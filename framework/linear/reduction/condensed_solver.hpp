@@ -4,7 +4,7 @@
 #include <list>
 #include <memory>
 
-#include "framework/linear/direct/dense_core_solver.hpp"
+#include "framework/linear/direct/umfpack_solver.hpp"
 #include "framework/linear/linear_solver.hpp"
 #include "framework/linear/reduction/summed_balances.hpp"
 
@@ -56,7 +56,7 @@ class CondensedSolver final : public LinearSolver {
   LinearReport reduced_report_;
   std::list<Bulk> bulks_;  ///< the one in use first
   SparseMatrix reduced_pattern_;
-  SummedBalances reduced_{std::make_unique<DenseCoreSolver>()};
+  SummedBalances reduced_{std::make_unique<UmfpackSolver>()};
   std::unique_ptr<LinearSolver> whole_;
   bool is_condensed_ = false;
   LinearCounts retired_;
