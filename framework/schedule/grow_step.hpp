@@ -17,11 +17,11 @@ struct GrowOptions {
   std::string component;
   std::vector<std::string> settle;
   std::string update = automatic;
-  bool is_followed = false;  ///< whether another step of the schedule solves or grows behind it
-  int passes = 20;           ///< of repeat_step
-  double cut = 1e-2;         ///< size of the steps after a growth event, over the standard step
-  double settled = 1e-2;     ///< relative change over a step at and below which the standard step returns
-  double overshoot = 0.02;   ///< of the load of growth: by how much a step may pass it that is not repeated shorter
+  bool is_followed = false;         ///< whether another step of the schedule solves or grows behind it
+  int passes = 20;                  ///< of repeat_step
+  double cut = 1e-2;                ///< size of the steps after a growth event, over the standard step
+  double settled = 1e-2;            ///< relative change over a step at and below which the standard step returns
+  std::optional<double> overshoot;  ///< by how much the load may pass 1 before a shorter step is taken
   Origin origin;
   NewtonOptions newton;
   LinearOptions linear;
@@ -45,7 +45,7 @@ class GrowStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override { settle_.add_counts(counts); }
 
   const GrowOptions& options() const { return options_; }
-  double overshoot() const { return options_.overshoot; }
+  double overshoot() const { return *options_.overshoot; }
   bool grows_within_step() const { return options_.update == within_step; }
   /// In which steps tips grow with the state held, as with after_step, although growth belongs to the steps.
   enum class Holding {
