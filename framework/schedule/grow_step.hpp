@@ -21,7 +21,8 @@ struct GrowOptions {
   int passes = 20;           ///< of repeat_step
   double cut = 1e-2;         ///< size of the steps after a growth event, over the standard step
   double settled = 1e-2;     ///< relative change over a step at and below which the standard step returns
-  double overshoot = 0.02;   ///< relative excess of the load of growth above which a step is repeated shorter
+  /// Relative excess of the load of growth above which a step is repeated shorter; without one GrowStep has its own.
+  std::optional<double> overshoot;
   Origin origin;
   NewtonOptions newton;
   LinearOptions linear;
@@ -45,7 +46,7 @@ class GrowStep : public ScheduleStep {
   void add_counts(LinearCounts& counts) const override { settle_.add_counts(counts); }
 
   const GrowOptions& options() const { return options_; }
-  double overshoot() const { return options_.overshoot; }
+  double overshoot() const { return *options_.overshoot; }
   bool grows_within_step() const { return options_.update == within_step; }
   /// In which steps tips grow with the state held, as with after_step, although growth belongs to the steps.
   enum class Holding {

@@ -21,7 +21,7 @@ couplers:
   - {type: two_level,     between: [rock, conduit, tips, contact]}
 schedule:
   - solve: [rock, conduit, contact]
-  - {grow: tips, settle: [rock, contact], overshoot: 2e-3}
+  - {grow: tips, settle: [rock, contact]}
 """
 
 

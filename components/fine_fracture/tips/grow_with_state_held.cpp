@@ -82,7 +82,7 @@ std::vector<TipOutcome> Tips::find_outcomes() {
         seen[tip], [&](const TakenFor& pair) { return pair.first.k1 == taken.k1 && pair.first.k2 == taken.k2; });
     return found != seen[tip].end() ? found->second : taken;
   };
-  const auto over_start = [&](int tip, const TipPath& path) { return toughness(tips_[tip], path) / at_start[tip]; };
+  const auto over_start = [&](int tip, const TipPath& path) { return resistance(tips_[tip], path) / at_start[tip]; };
   for (const Tip& tip : tips_) {
     const LameParameters lame = surroundings_->stiffness(position(tip, {}));
     // A tip that the mesh follows has its own search; here it stays.

@@ -14,7 +14,7 @@ namespace sprekk::fine_fracture {
 void Tips::note_end(const Tip& tip, const TipOutcome& outcome, bool has_joined) {
   const GrowthOptions& growth = options_.growth;
   const Sifs end = felt(tip, outcome.path, outcome.end);
-  const double k_eq = equivalent_sif(end) / toughness(tip), excess = k_eq - 1;
+  const double k_eq = equivalent_sif(end) / resistance(tip, outcome.path), excess = k_eq - 1;
   const double shear = end.k2 / end.k1;
   const bool has_grown = outcome.increments > 0;
   // Twice and three times the tolerances: the length and the direction of the last increment may be off by that, and by

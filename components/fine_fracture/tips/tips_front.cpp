@@ -192,8 +192,10 @@ FrontSearch::Verdict TipsFront::finish(Tips& there) {
     same->now.lasted_before = tips_.tips_[i].now.lasted;
     same->now.lasted = dt_;
     same->now.speed = std::max(0.0, grown) / dt_;
-    same->now.apparent_toughness =
-        speed(i) > 0 && there.is_viscous(*same) ? there.apparent_toughness(*same, speed(i)) : 0;
+    const bool is_followed = there.is_followed(*same);
+    same->now.apparent_toughness = !is_followed                              ? there.resistance(*same, same->now.path)
+                                   : speed(i) > 0 && there.is_viscous(*same) ? there.apparent_toughness(*same, speed(i))
+                                                                             : 0;
     const double advance = front_->length(static_cast<int>(i)) - at_start_[i].covered;
     same->now.turning = !jump_ && at_start_[i].covered > 0 && advance > 0
                             ? (front_->angle(static_cast<int>(i)) - at_start_[i].ahead) / advance
