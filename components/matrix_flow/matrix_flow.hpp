@@ -45,7 +45,6 @@ namespace sprekk::matrix_flow {
 class Buoyancy;
 class HistoryOfCells;
 class LeakySides;
-class StatePermeability;
 class StorageFormula;
 
 /// A point source or sink of fluid.
@@ -91,7 +90,7 @@ struct Options {
 /// discretization has their cells alone (discretize_inside). All other cells keep their initial pressure (rows p −
 /// p_old = 0, times a storage), so they exert no load.
 ///
-/// The permeability may be a formula of the state at the end of the step (StatePermeability). Then all operators are
+/// The permeability may be a formula of the state at the end of the step. Then all operators are
 /// made anew before an assembly with these balances, and Newton's method gets the derivatives of fluxes and traces.
 /// So may the porosity: then S V (p − p_old) becomes the change of what the pores hold since it was counted last
 /// (stored_by_state.cpp), which does not depend on the path of the state.
@@ -334,13 +333,14 @@ class MatrixFlow : public Component,
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, symmetric_components> permeability_;  ///< as symmetric_axes has them
   Property viscosity_, porosity_, compressibility_;
-  Property storage_;                             ///< 1/Pa; of pores by a formula: the derivative of what they hold
-  std::unique_ptr<FormulaOfCells> pores_;        ///< nullptr where the porosity does not follow the state
-  std::unique_ptr<StorageFormula> stores_;       ///< nullptr where the storage does not follow the state
-  Field* content_ = nullptr;                     ///< with one of these only: what rock holds, m^2
-  Vector uncounted_;                             ///< on a mesh that has changed: of this, what a later solve counts
-  std::unique_ptr<HistoryOfCells> history_;      ///< nullptr where nothing is remembered
-  std::unique_ptr<StatePermeability> by_state_;  ///< nullptr where the permeability does not follow the state
+  Property storage_;                         ///< 1/Pa; of pores by a formula: the derivative of what they hold
+  std::unique_ptr<FormulaOfCells> pores_;    ///< nullptr where the porosity does not follow the state
+  std::unique_ptr<StorageFormula> stores_;   ///< nullptr where the storage does not follow the state
+  Field* content_ = nullptr;                 ///< with one of these only: what rock holds, m^2
+  Vector uncounted_;                         ///< on a mesh that has changed: of this, what a later solve counts
+  std::unique_ptr<HistoryOfCells> history_;  ///< nullptr where nothing is remembered
+  std::unique_ptr<FormulaOfCells>
+      by_state_;  ///< the diagonal; nullptr where the permeability does not follow the state
   DifferentiateFluxes differentiate_;
   std::uint64_t viscosity_of_mobility_ = 0;  ///< version, with by_state_
   /// Derivatives of fluxes and traces by a field, where the permeability follows it: faces × values of the field.
