@@ -149,7 +149,6 @@ class MatrixFlow : public Component,
   /// come ever nearer to the limited ones.
   void set_search_mode(SearchMode mode) override;
   void observe_iterate(const std::vector<Field*>& unknowns) override;
-  void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
   void release_coefficients(double share) override;
   bool is_nonlinear_in_pieces() const override { return by_state_ || (is_limited_ && !is_sealed_); }
   std::uint64_t discrete_state() const override;
@@ -350,7 +349,7 @@ class MatrixFlow : public Component,
   };
   bool is_first_attempt_ = true, takes_derivatives_ = true;
   std::vector<Tensor> observed_mobility_;  ///< at the last iterate; empty before the first
-  std::vector<Tensor> held_mobility_;      ///< c_0 of hold_coefficients; empty where it is not held
+  std::vector<Tensor> held_mobility_;      ///< c_0 of release_coefficients; empty where it is not held
   double released_share_ = 1;              ///< with it
   std::vector<ByState> linearized_;  ///< about the state of the last assembly; empty where it needed no derivatives
   LinearExpression wall_pressure_by_state_;  ///< wall_pressure_, linearized about the same state

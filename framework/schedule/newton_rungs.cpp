@@ -104,7 +104,7 @@ StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<
   constexpr double first = 0.25, smallest = 1.0 / 64;  // shares of the coefficients, at first and at least
   std::vector<Vector> reached = values();
   set(start);
-  for (PiecewiseSmooth* part : pieces_) part->hold_coefficients();
+  for (PiecewiseSmooth* part : pieces_) part->release_coefficients(0);
   set(reached);
   int iterations = 0;
   double share = 0, increment = first;
