@@ -75,6 +75,21 @@ void StateOfCells::put(int cell, std::vector<double>& state) const {
   for (std::size_t k = 0; k < named_.size(); ++k) state[named_[k]] = values_[k][cell];
 }
 
+void StateOfCells::visit(const std::vector<char>& inside,
+                         const std::function<void(int, std::vector<double>&)>& evaluate) {
+  std::vector<double> state(rock_variables().size(), 0);
+  try {
+    for (int cell = 0; cell < mesh_.cell_count(); ++cell) {
+      if (!inside.empty() && !inside[cell]) continue;
+      put(cell, state);
+      evaluate(cell, state);
+    }
+  } catch (const DataError&) {
+    forget();
+    throw;
+  }
+}
+
 std::vector<std::pair<const Field*, SparseMatrix>> StateOfCells::derivatives_of_variable(std::size_t k) const {
   std::vector<std::pair<const Field*, SparseMatrix>> all;
   for (const StateField& source : fields_.of(named_[k])) {

@@ -38,9 +38,12 @@ class StateOfCells {
   /// (a step that ends where it begins), expressions keep their accepted values: strain is counted from the state that
   /// is being found. Collective.
   bool take(const StepTime& step);
-  void forget();  ///< lets the next call of `take` return true
   /// Puts the values of one cell in their places among all variables.
   void put(int cell, std::vector<double>& state) const;
+  /// Calls `evaluate(cell, state)` with the values that were taken, in the cells that `inside` flags (empty: in all).
+  /// If it throws DataError, the next call of `take` returns true.
+  void visit(const std::vector<char>& inside, const std::function<void(int, std::vector<double>&)>& evaluate);
+  void forget();  ///< lets the next call of `take` return true
   /// Derivatives of the k-th variable by each field on which it depends, cells × values of the field; complete in the
   /// rows of cells that the process owns.
   std::vector<std::pair<const Field*, SparseMatrix>> derivatives_of_variable(std::size_t k) const;

@@ -1,4 +1,6 @@
 // The flow where the permeability, the porosity, or both are formulas of the state.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -6,20 +8,26 @@
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/history_of_cells.hpp"
 #include "components/matrix_flow/matrix_flow.hpp"
-#include "components/matrix_flow/state_permeability.hpp"
 #include "components/matrix_flow/storage_formula.hpp"
+#include "framework/config/expression.hpp"
 #include "framework/field/ownership.hpp"
 #include "framework/field/wall_matrices.hpp"
 #include "framework/invariants.hpp"
 #include "framework/mesh/cell_sums.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/parallel/parallel.hpp"
 
 namespace sprekk::matrix_flow {
 
 void MatrixFlow::find_state_permeability() {
-  by_state_ = StatePermeability::find(options_.permeability, mesh_, pressure_, origin_,
-                                      history_ ? &history_->history() : nullptr);
-  if (!by_state_) return;
+  const std::vector<Data> all(options_.permeability.component.begin(), options_.permeability.component.end());
+  const History* history = history_ ? &history_->history() : nullptr;
+  if (!FormulaOfCells::find(all, mesh_, history)) return;
+  if (!options_.permeability.is_diagonal())
+    throw InputError(origin_, "a permeability that is a formula of the state has entries beside its diagonal",
+                     "a formula is taken for each axis alone", "give one formula, or one each for 'xx' and 'yy'");
+  by_state_ = FormulaOfCells::find({all.begin(), all.begin() + dimension}, mesh_, history);
+  by_state_->state().offer("p", StateField{&pressure_});
   SPREKK_EXPECT(differentiate_, name());
   if (!inside_.empty())
     throw InputError(options_.regions_origin, "a flow in some 'regions' has a permeability that follows the state",
@@ -29,9 +37,9 @@ void MatrixFlow::find_state_permeability() {
 
 void MatrixFlow::find_history(const ComponentContext& context) {
   if (!history_) return;
-  std::uint32_t recalled = pores_ ? pores_->formula().recalled() : 0;
-  if (by_state_)
-    for (const StateFormula& formula : by_state_->formulas()) recalled |= formula.recalled();
+  std::uint32_t recalled = 0;
+  for (const auto* formula : {&pores_, &by_state_})
+    if (*formula) recalled |= (*formula)->recalled();
   history_->history().require_named(recalled, "permeability or porosity");
   history_->state().offer("p", StateField{&pressure_});
   history_->history().add_fields(context.fields, mesh_, Location::cell, context.name, pressure_.name());
@@ -72,14 +80,23 @@ void MatrixFlow::refuse_with_formula(const std::string& what, const std::string&
 }
 
 void MatrixFlow::take_permeability() {
-  const bool has_changed = by_state_->evaluate(evaluated_for_);
+  const bool has_changed = by_state_->evaluate(evaluated_for_, {}, [&](int cell, double value) {
+    if (!(value > 0))
+      throw StateError(
+          fmt::format("{}: 'permeability' is {} m^2 at {} (fluid could not flow there) keep it above 0: "
+                      "\"max(1e-22 m^2, …)\"",
+                      origin_.text(), value, to_text(mesh_.cell_center[cell])));
+  });
   if (!has_changed && viscosity_of_mobility_ == viscosity_.version()) return;
   viscosity_of_mobility_ = viscosity_.version();
-  mobility_ = by_state_->values();
-  for (int c = 0; c < mesh_.cell_count(); ++c) mobility_[c] /= viscosity_[c];
+  std::vector<Tensor> mobility(mesh_.cell_count(), Tensor::Zero());
+  for (int c = 0; c < mesh_.cell_count(); ++c)
+    for (int axis = 0; axis < dimension; ++axis) mobility[c](axis, axis) = by_state_->values(axis)[c] / viscosity_[c];
   for (std::size_t c = 0; c < held_mobility_.size(); ++c)
-    mobility_[c].diagonal() = held_mobility_[c].diagonal().array().pow(1 - released_share_) *
-                              mobility_[c].diagonal().array().pow(released_share_);
+    mobility[c].diagonal() = held_mobility_[c].diagonal().array().pow(1 - released_share_) *
+                             mobility[c].diagonal().array().pow(released_share_);
+  if (mobility == mobility_) return;
+  mobility_ = std::move(mobility);
   ++mobility_version_;
 }
 
@@ -139,12 +156,13 @@ void MatrixFlow::linearize() {
   for (const OpenBorder& border : borders_) state.boundary += border.boundary * border.outflow->now();
   std::vector<std::vector<Tensor>> by;
   for (std::size_t k = 0; k < by_state_->state().variable_count(); ++k) {
-    by.push_back(by_state_->by(k));
-    for (int c = 0; c < mesh_.cell_count(); ++c) by.back()[c] /= viscosity_[c];
-    for (std::size_t c = 0; c < held_mobility_.size(); ++c)
-      for (int axis = 0; axis < dimension; ++axis)
-        by.back()[c](axis, axis) *=
-            released_share_ * mobility_[c](axis, axis) / (by_state_->values()[c](axis, axis) / viscosity_[c]);
+    by.emplace_back(mesh_.cell_count(), Tensor::Zero());
+    for (int axis = 0; axis < dimension; ++axis) {
+      const Vector &of_axis = by_state_->by(k, axis), &values = by_state_->values(axis);
+      for (int c = 0; c < mesh_.cell_count(); ++c) by.back()[c](axis, axis) = of_axis[c] / viscosity_[c];
+      for (std::size_t c = 0; c < held_mobility_.size(); ++c)
+        by.back()[c](axis, axis) *= released_share_ * mobility_[c](axis, axis) / (values[c] / viscosity_[c]);
+    }
   }
   const std::vector<FluxDerivatives> derivatives =
       differentiate_({mesh_, mobility_, conditions_}, nodes_to_discretize(mesh_), state, by);

@@ -58,6 +58,7 @@ void MatrixFlow::set_search_mode(SearchMode mode) {
 }
 
 void MatrixFlow::release_coefficients(double share) {
+  if (share == 0) return set_search_mode(SearchMode::piecewise_linear);
   if (by_state_) release_by_state(share);
   if (!is_limited_ || is_sealed_) return;
   constexpr double decades = 14;  // from the largest flux to its round-off

@@ -7,7 +7,6 @@
 #include "components/matrix_flow/buoyancy.hpp"
 #include "components/matrix_flow/history_of_cells.hpp"
 #include "components/matrix_flow/leaky_sides.hpp"
-#include "components/matrix_flow/state_permeability.hpp"
 #include "components/matrix_flow/storage_formula.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/field/counted_amounts.hpp"

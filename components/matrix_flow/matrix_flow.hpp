@@ -45,7 +45,6 @@ namespace sprekk::matrix_flow {
 class Buoyancy;
 class HistoryOfCells;
 class LeakySides;
-class StatePermeability;
 class StorageFormula;
 
 /// A point source or sink of fluid.
@@ -90,7 +89,7 @@ struct Options {
 /// and no flux through their boundary to other rock: the discretization has their cells alone (discretize_inside). All
 /// other cells keep their initial pressure (rows p − p_old = 0, times a storage), so they exert no load.
 ///
-/// The permeability may be a formula of the state at the end of the step (StatePermeability). Then all operators are
+/// The permeability may be a formula of the state at the end of the step. Then all operators are
 /// computed again before each assembly of these balances, and Newton's method gets the derivatives of fluxes and
 /// traces. The porosity may be a formula, too: S V (p − p_old) is then replaced by the change of the pores' content
 /// since it was counted last (stored_by_state.cpp), which does not depend on the path of the state.
@@ -149,7 +148,6 @@ class MatrixFlow : public Component,
   /// `limit`) that approach the limited ones.
   void set_search_mode(SearchMode mode) override;
   void observe_iterate(const std::vector<Field*>& unknowns) override;
-  void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
   void release_coefficients(double share) override;
   bool is_nonlinear_in_pieces() const override { return by_state_ || (is_limited_ && !is_sealed_); }
   std::uint64_t discrete_state() const override;
@@ -334,13 +332,14 @@ class MatrixFlow : public Component,
   Vector initial_pressure_, gravity_potential_cell_, gravity_potential_face_;
   std::array<Property, symmetric_components> permeability_;  ///< as symmetric_axes has them
   Property viscosity_, porosity_, compressibility_;
-  Property storage_;                             ///< 1/Pa; of pores by a formula: the derivative of what they hold
-  std::unique_ptr<FormulaOfCells> pores_;        ///< nullptr where the porosity does not follow the state
-  std::unique_ptr<StorageFormula> stores_;       ///< nullptr where the storage does not follow the state
-  Field* content_ = nullptr;                     ///< with one of these only: the fluid that the rock holds, m^2
-  Vector uncounted_;                             ///< on a changed mesh: the part of this that a later solve counts
-  std::unique_ptr<HistoryOfCells> history_;      ///< nullptr where nothing is remembered
-  std::unique_ptr<StatePermeability> by_state_;  ///< nullptr where the permeability does not follow the state
+  Property storage_;                         ///< 1/Pa; of pores by a formula: the derivative of what they hold
+  std::unique_ptr<FormulaOfCells> pores_;    ///< nullptr where the porosity does not follow the state
+  std::unique_ptr<StorageFormula> stores_;   ///< nullptr where the storage does not follow the state
+  Field* content_ = nullptr;                 ///< with one of these only: the fluid that the rock holds, m^2
+  Vector uncounted_;                         ///< on a changed mesh: the part of this that a later solve counts
+  std::unique_ptr<HistoryOfCells> history_;  ///< nullptr where nothing is remembered
+  std::unique_ptr<FormulaOfCells>
+      by_state_;  ///< the diagonal; nullptr where the permeability does not follow the state
   DifferentiateFluxes differentiate_;
   std::uint64_t viscosity_of_mobility_ = 0;  ///< version, with by_state_
   /// Derivatives of fluxes and traces by a field, where the permeability follows it: faces × values of the field.
@@ -350,7 +349,7 @@ class MatrixFlow : public Component,
   };
   bool is_first_attempt_ = true, takes_derivatives_ = true;
   std::vector<Tensor> observed_mobility_;  ///< at the last iterate; empty before the first
-  std::vector<Tensor> held_mobility_;      ///< c_0 of hold_coefficients; empty where it is not held
+  std::vector<Tensor> held_mobility_;      ///< c_0 of release_coefficients; empty where it is not held
   double released_share_ = 1;              ///< with it
   std::vector<ByState> linearized_;  ///< about the state of the last assembly; empty where it needed no derivatives
   LinearExpression wall_pressure_by_state_;  ///< wall_pressure_, linearized about the same state

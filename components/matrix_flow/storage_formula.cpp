@@ -63,24 +63,17 @@ bool StorageFormula::evaluate(const StepTime& step, const Vector& initial_pressu
   if (!has_changed && !is_other_time && pressures_.size() > 0 && pressures_ == pressure_.now()) return false;
   Vector stored = Vector::Zero(mesh_.cell_count()), by_pressure = stored;
   std::vector<Vector> by(state_.variable_count(), stored);
-  std::vector<double> state(rock_variables().size(), 0), of_state(state.size());
-  try {
-    for (int c = 0; c < mesh_.cell_count(); ++c) {
-      if (!inside.empty() && !inside[c]) continue;
-      state_.put(c, state);
-      const double before = initial_pressure[c], change = pressure_.now()[c] - before;
-      for (const Sample& sample : all) {
-        state[of_pressure] = before + sample.at * change;
-        const double storage = formula_.at(c, state, of_state);
-        stored[c] += sample.weight * change * storage;
-        by_pressure[c] += sample.weight * (storage + sample.at * change * of_state[of_pressure]);
-        for (std::size_t k = 0; k < by.size(); ++k) by[k][c] += sample.weight * change * of_state[state_.variable(k)];
-      }
+  std::vector<double> of_state(rock_variables().size());
+  state_.visit(inside, [&](int c, std::vector<double>& state) {
+    const double before = initial_pressure[c], change = pressure_.now()[c] - before;
+    for (const Sample& sample : all) {
+      state[of_pressure] = before + sample.at * change;
+      const double storage = formula_.at(c, state, of_state);
+      stored[c] += sample.weight * change * storage;
+      by_pressure[c] += sample.weight * (storage + sample.at * change * of_state[of_pressure]);
+      for (std::size_t k = 0; k < by.size(); ++k) by[k][c] += sample.weight * change * of_state[state_.variable(k)];
     }
-  } catch (const DataError&) {
-    state_.forget();  // so that the next call does not take it for evaluated
-    throw;
-  }
+  });
   pressures_ = pressure_.now();
   stored_ = std::move(stored);
   by_pressure_ = std::move(by_pressure);

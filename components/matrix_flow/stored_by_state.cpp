@@ -32,7 +32,7 @@ void MatrixFlow::find_pores(const ComponentContext& context) {
   if (options_.storage)
     stores_ = StorageFormula::find(*options_.storage, mesh_, pressure_, history, origin_);
   else if (options_.porosity)
-    pores_ = FormulaOfCells::find(*options_.porosity, mesh_, history);
+    pores_ = FormulaOfCells::find({*options_.porosity}, mesh_, history);
   if (!pores_ && !stores_) return;
   (pores_ ? pores_->state() : stores_->state()).offer("p", StateField{&pressure_});
   if (pores_ && options_.fluid_compressibility->depends_on_time())

@@ -25,7 +25,7 @@ LoadedRock::LoadedRock(const ComponentContext& context, const Options& options, 
       stiffness_(options_, mesh_, context.start_time, context.name, context.origin),
       start_time_(context.start_time) {
   check_conditions(options_, mesh_, location, context.origin);
-  if (!options_.is_anisotropic) young_ = FormulaOfCells::find(*options_.young_modulus, mesh_);
+  if (!options_.is_anisotropic) young_ = FormulaOfCells::find({*options_.young_modulus}, mesh_);
 }
 
 LoadedRock::~LoadedRock() = default;

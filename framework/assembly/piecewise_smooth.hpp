@@ -32,10 +32,8 @@ class PiecewiseSmooth {
   /// Whether coefficients may keep Newton's method from converging although no discrete state changes. It then takes
   /// its last attempts, in which coefficients are held and then released step by step, also where no state has changed.
   virtual bool is_nonlinear_in_pieces() const { return false; }
-  /// Holds the coefficients that make terms nonlinear within a piece at their values now, c_0, until they are released.
-  virtual void hold_coefficients() {}
-  /// From now on held coefficients are c_0^(1 − share) c^share with the current value c; with a share of 1 they are no
-  /// longer held.
+  /// With a share of 0 the coefficients that make terms nonlinear within a piece are held at their values now, c_0.
+  /// With a larger one they are c_0^(1 − share) c^share with the current value c, and with 1 they are no longer held.
   virtual void release_coefficients(double /*share*/) {}
 
   /// Moves the fields to where one-sided conditions (contact) are inactive, so that the unknowns that these conditions

@@ -25,15 +25,18 @@ Vector covered_parts(const MeshChange& change, const Mesh& after) {
   return parts;
 }
 
-Vector shared_in_cells(const MeshChange& change, const Mesh& before, const Vector& amounts) {
-  SPREKK_EXPECT(amounts.size() == before.cell_count(), amounts.size(), before.cell_count());
-  Vector shared = Vector::Zero(static_cast<Eigen::Index>(change.cell.size()));
+Vector shared_in_cells(const MeshChange& change, const Mesh& before, const Vector& amounts, int components) {
+  SPREKK_EXPECT(amounts.size() == components * before.cell_count(), amounts.size(), components, before.cell_count());
+  const auto of = [components](auto& values, Eigen::Index cell) {
+    return values.segment(cell * components, components);
+  };
+  Vector shared = Vector::Zero(static_cast<Eigen::Index>(change.cell.size()) * components);
   for (std::size_t cell = 0; cell < change.cell.size(); ++cell)
-    if (change.cell[cell] != none) shared[static_cast<Eigen::Index>(cell)] = amounts[change.cell[cell]];
+    if (change.cell[cell] != none) of(shared, static_cast<Eigen::Index>(cell)) = of(amounts, change.cell[cell]);
   for (int k = 0; k < change.overlap.outerSize(); ++k)
     for (SparseMatrix::InnerIterator entry(change.overlap, k); entry; ++entry)
       if (change.cell[entry.row()] == none)
-        shared[entry.row()] += entry.value() / before.cell_measure[entry.col()] * amounts[entry.col()];
+        of(shared, entry.row()) += entry.value() / before.cell_measure[entry.col()] * of(amounts, entry.col());
   return shared;
 }
 

@@ -43,8 +43,8 @@ struct MeshChange {
 Vector covered_parts(const MeshChange& change, const Mesh& after);
 
 /// Amounts of old cells, or of old fracture cells, among the new ones: those that are kept have their own, others the
-/// shares of what they cover. Rock that parts has none.
-Vector shared_in_cells(const MeshChange& change, const Mesh& before, const Vector& amounts);
+/// shares of what they cover. Rock that parts has none. A cell may have several amounts (components).
+Vector shared_in_cells(const MeshChange& change, const Mesh& before, const Vector& amounts, int components = 1);
 Vector shared_in_fracture_cells(const MeshChange& change, const Vector& amounts);
 
 /// The change that keeps every cell, face, fracture cell and ridge; its overlap is empty.

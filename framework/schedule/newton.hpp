@@ -110,7 +110,6 @@ class Newton {
   StepStatus attempt_also_without_conditions(const StepTime& step, const std::vector<Vector>& start, Until until);
   StepStatus finish_with_own_derivatives(const StepTime& step, StepStatus status);
   bool is_nonlinear_in_pieces() const;
-  bool may_follow_path(const StepTime& step) const;
   StepStatus follow_paths(const StepTime& step, const std::vector<Vector>& start, StepStatus status);
   /// Looks for a solution with states that the present solution has left (keep_states.cpp). Returns the number of
   /// iterations.
@@ -172,7 +171,6 @@ class Newton {
   std::optional<Loss> lost_;           ///< where the last path has ended
   std::optional<Loss> passed_;         ///< by the solution of the step `passed_in_`
   StepTime passed_in_;
-  StepTime last_failed_path_;  ///< the last step whose path failed; none is tried in a step that is not much shorter
   const Stabilization* stabilization_ = nullptr;
   const Responses* responses_ = nullptr;
   std::map<const Field*, Vector> start_;

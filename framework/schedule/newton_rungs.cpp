@@ -28,7 +28,7 @@ StepStatus Newton::search(const StepTime& step, const std::vector<Vector>& start
   if (status.converged || status.iterations <= 1) return status;
   // 3. Descent from the first iteration on, since no descent may lead back from where full steps have led.
   if (options_.undamped > 0) try_again([&] { return finish_with_own_derivatives(step, iterate(step, 0)); });
-  if (status.converged || !may_follow_path(step)) return status;
+  if (status.converged || options_.pieces == 0 || !(state_has_changed_ || is_nonlinear_in_pieces())) return status;
   // 4. The path from piece to piece.
   return follow_paths(step, start, std::move(status));
 }
@@ -59,14 +59,6 @@ StepStatus Newton::finish_with_own_derivatives(const StepTime& step, StepStatus 
   StepStatus finished = iterate(step, options_.undamped);
   finished.iterations += status.iterations;
   return finished;
-}
-
-/// A path that has failed is tried again in a much shorter step only.
-bool Newton::may_follow_path(const StepTime& step) const {
-  constexpr double much_shorter = 1.0 / 2;  // of the step that failed; chosen by scenes with cut steps
-  if (options_.pieces == 0 || !(state_has_changed_ || is_nonlinear_in_pieces())) return false;
-  const bool has_failed = last_failed_path_.dt > 0 && step.start == last_failed_path_.start;
-  return !has_failed || step.dt <= much_shorter * last_failed_path_.dt;
 }
 
 /// The path is followed with coefficients held, then corrected with the true coefficients, which are released in stages
@@ -101,7 +93,6 @@ StepStatus Newton::follow_paths(const StepTime& step, const std::vector<Vector>&
     status.reason += "; then " + path.reason;
     if (is_path_stuck_) break;  // with other derivatives its pieces are the same
   }
-  last_failed_path_ = step;
   if (is_used_up) set(tried);
   is_used_up_ = is_used_up;
   return status;
@@ -113,7 +104,7 @@ StepStatus Newton::release_coefficients(const StepTime& step, const std::vector<
   constexpr double first = 0.25, smallest = 1.0 / 64;  // shares of the coefficients, at first and at least
   std::vector<Vector> reached = values();
   set(start);
-  for (PiecewiseSmooth* part : pieces_) part->hold_coefficients();
+  for (PiecewiseSmooth* part : pieces_) part->release_coefficients(0);
   set(reached);
   int iterations = 0;
   double share = 0, increment = first;

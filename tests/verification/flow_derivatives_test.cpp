@@ -134,7 +134,7 @@ TEST(FlowDerivatives, OfTheCubicLawThatIsReleasedInPart) {
     Field& aperture = run.model().fields().at("conduit.aperture");
     aperture.set(Vector::LinSpaced(aperture.size(), 0.6, 1.3));
     for (auto* part : parts_with<PiecewiseSmooth>(run.model().parts())) {
-      part->hold_coefficients();
+      part->release_coefficients(0);
       part->release_coefficients(0.3);
     }
     expect_derivatives(
@@ -188,7 +188,7 @@ TEST(FlowDerivatives, OfInertiaThatIsReleasedInPart) {
   Field& flux = run.model().fields().at("conduit.flux");
   flux.set(Vector::LinSpaced(flux.size(), -0.7, 1.1));
   for (auto* part : parts_with<PiecewiseSmooth>(run.model().parts())) {
-    part->hold_coefficients();
+    part->release_coefficients(0);
     part->release_coefficients(0.3);
   }
   expect_derivatives(run, spreads, rows,

@@ -77,7 +77,17 @@ TEST_P(SwapsInCracks, OpenLikeSneddonsAndSlipLikePhans) {
 }
 
 class SwapsInSection51 : public ::testing::TestWithParam<Choice> {};
-INSTANTIATE_TEST_SUITE_P(All, SwapsInSection51, ::testing::Combine(flows, rocks, contacts), name_of_pair);
+// Every two components of different roles are once together, at least: every contact with each flow and each rock, and
+// every flow with each rock.
+INSTANTIATE_TEST_SUITE_P(
+    Pairs, SwapsInSection51,
+    ::testing::Values(Choice{"mpfa", "mpsa", "coulomb"}, Choice{"mpfa", "fem_first", "augmented_lagrangian"},
+                      Choice{"mpfa", "fem_second", "coulomb"}, Choice{"tpfa", "mpsa", "augmented_lagrangian"},
+                      Choice{"tpfa", "fem_first", "coulomb"}, Choice{"tpfa", "fem_second", "augmented_lagrangian"},
+                      Choice{"rt0", "mpsa", "coulomb"}, Choice{"rt0", "fem_first", "augmented_lagrangian"},
+                      Choice{"rt0", "fem_second", "coulomb"}, Choice{"ntpfa", "mpsa", "augmented_lagrangian"},
+                      Choice{"ntpfa", "fem_first", "coulomb"}, Choice{"ntpfa", "fem_second", "augmented_lagrangian"}),
+    name_of_pair);
 
 /// Section 5.1 of the paper with 20 cells on the fracture, at the end of the injection. Two-point fluxes are not
 /// consistent on this mesh, which `check` says (0.11 % of the pressure far from the fracture; below where they are).

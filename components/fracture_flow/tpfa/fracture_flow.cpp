@@ -212,6 +212,7 @@ void FractureFlow::set_search_mode(SearchMode mode) {
 }
 
 void FractureFlow::release_coefficients(double share) {
+  if (share == 0) return set_search_mode(SearchMode::piecewise_linear);
   released_share_ = share;
   if (share == 1) held_aperture_ = held_flux_ = Vector();
 }

@@ -81,7 +81,6 @@ class FractureFlow : public Component,
   void begin_step(const StepTime& step) override;
   void assemble(Assembly& assembly, const StepTime& step) const override;
   void set_search_mode(SearchMode mode) override;
-  void hold_coefficients() override { set_search_mode(SearchMode::piecewise_linear); }
   void release_coefficients(double share) override;
   void constrain(Assembly& assembly) const override;
   void after_solve(const std::vector<Field*>& solved, const StepTime& step) override;

@@ -108,12 +108,11 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
                          const KnownWithinCells& known) {
   SPREKK_EXPECT((known.pieces.empty() && known.at_faces.empty()) || old.spec().components == 1, old.name());
   const int components = old.spec().components;
-  const bool is_amount = old.spec().is_amount;
   SPREKK_EXPECT(old.accepted().size() == static_cast<Eigen::Index>(old_mesh.cell_count()) * components, old.name());
+  if (old.spec().is_amount) return shared_in_cells(change, old_mesh, old.accepted(), components);
   Vector values = Vector::Zero(static_cast<int>(change.cell.size()) * components);
   LinearInCells linear(old_mesh, old.accepted(), components, known.at_faces);
-  // One row for each new cell: its overlap with old cells, divided by the areas of the old cells (for shares of
-  // amounts) or by its own area (for a mean).
+  // One row for each new cell: its overlap with old cells.
   const Eigen::SparseMatrix<double, Eigen::RowMajor> overlap = change.overlap;
   for (int cell = 0; cell < static_cast<int>(change.cell.size()); ++cell) {
     auto value = values.segment(cell * components, components);
@@ -127,10 +126,6 @@ Vector transferred_cells(const Field& old, const MeshChange& change, const Mesh&
     const Corners corners = corners_of(new_mesh.nodes, new_mesh.cell_nodes[cell]);
     for (decltype(overlap)::InnerIterator entry(overlap, cell); entry; ++entry) {
       const int from = static_cast<int>(entry.col());
-      if (is_amount) {
-        value += entry.value() / old_mesh.cell_measure[from] * old.accepted().segment(from * components, components);
-        continue;
-      }
       const Corners old_corners = corners_of(old_mesh.nodes, old_mesh.cell_nodes[from]);
       if (const auto pieces = known.pieces.find(from); pieces != known.pieces.end()) {
         value[0] += entry.value() / area * mean_of_pieces(pieces->second, corners, from, old_corners, linear);
