@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "components/capabilities/bore_holes.hpp"
 #include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
@@ -58,6 +59,7 @@ class FractureFlow : public Component,
                      public FractureFluid,
                      public FractureFluxes,
                      public BuoyantFractures,
+                     public BoreHolesInFractures,
                      public HeedsStages,
                      public KeepsTotals,
                      public LivesInPart,
@@ -287,12 +289,14 @@ class FractureFlow : public Component,
     double value;                                     ///< Pa where its pressure is prescribed, else the rate, m^2/s
     std::vector<std::pair<int, double>> shares = {};  ///< in this step
     double level = 0;                                 ///< Pa, of the point above the mean of these cells
-    double bore = 0;  ///< in space, with a radius r: ln(r_e/r)/(2 pi), with the radius r_e that the cells stand for
+    double bore = 0;  ///< in space, with a radius r: ln(r_e/r), with the radius r_e that the cells stand for
   };
   /// By how much the pressure at the point exceeds the mean of its cells, for each unit of its rate.
   Rise rise_of(const OpenPoint& point) const;
   /// OpenPoint::bore. Throws InputError where the cells are too small, or at the rim of their fracture.
   double bore_at(const FracturePlace& where, int cell);
+  double log_of_radii(int cell, const Point& at, double radius, const Origin& where) const override;
+  Rise rise_at_bore(int cell, double log_of_radii) const override;
   void share(OpenPoint& point, bool is_given_pressure) const;
   void share_points();
   /// From the accepted state, so that each pass of a step, and its monolithic solution, have the same shares.
