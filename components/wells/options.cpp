@@ -21,11 +21,12 @@ void add_place(Spec& spec, Perforation& place) {
       "index", place.index,
       {.unit = dimension == 2 ? "m^2/(Pa*s)" : "m^3/(Pa*s)",
        .range = positive(),
-       .doc = dimension == 2
-                  ? "Rate over difference of pressure to the cells around it. Without it, in rock it follows from the "
-                    "mesh, the radius and the skin; in a fracture the well has the pressure at its point."
-                  : "Rate over difference of pressure to the cells around it, of the whole line. Without it, along lines "
-                    "in rock and at points of fractures it follows from the mesh, the radius and the skin."});
+       .doc =
+           dimension == 2
+               ? "Rate over difference of pressure to the cells around it. Without it, in rock it follows from the "
+                 "mesh, the radius and the skin; in a fracture the well has the pressure at its point."
+               : "Rate over difference of pressure to the cells around it, of the whole line. Without it, along lines "
+                 "in rock and at points of fractures it follows from the mesh, the radius and the skin."});
 }
 
 Spec place_spec(Perforation& place) {
@@ -114,9 +115,9 @@ Spec well_spec(WellOptions& well) {
              .in_time = true});
   spec.data("lowest_pressure", well.lowest_pressure,
             {.unit = "Pa", .doc = "The same for a well that extracts, below.", .in_time = true});
-  spec.quantity("radius", well.radius, {.unit = "m",
-                 .range = positive(),
-                 .doc = dimension == 2 ? "Of the bore hole, in rock." : "Of the bore hole."});
+  spec.quantity(
+      "radius", well.radius,
+      {.unit = "m", .range = positive(), .doc = dimension == 2 ? "Of the bore hole, in rock." : "Of the bore hole."});
   spec.quantity("skin", well.skin,
                 {.doc = "Additional resistance of rock at the bore hole: the drop of pressure is (ln(r_e/r_w) + skin) "
                         "rate/(2 pi mobility).",

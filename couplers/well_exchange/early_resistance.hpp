@@ -22,9 +22,9 @@ struct EarlyResistance {
   std::array<double, early_terms> scales{};   ///< m^2
 };
 
-/// `bore`: the radius of the bore hole in the metric of rho, m; `area`: of the cells across the well, m^2; `difference`:
-/// of the transforms of the pressures of well and cells at s = c · decay, times s 2 pi sqrt(det M)/q. Without terms
-/// where ln(r_e/r_w) is not positive, which the caller refuses.
+/// `bore`: the radius of the bore hole in the metric of rho, m; `area`: of the cells across the well, m^2;
+/// `difference`: of the transforms of the pressures of well and cells at s = c · decay, times s 2 pi sqrt(det M)/q.
+/// Without terms where ln(r_e/r_w) is not positive, which the caller refuses.
 EarlyResistance fit_early_terms(double log_of_radii, double bore, double area,
                                 const std::function<double(double decay)>& difference);
 

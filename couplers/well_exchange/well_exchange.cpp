@@ -19,8 +19,8 @@
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/matrix_of.hpp"
-#include "framework/mesh/medium.hpp"
 #include "framework/mesh/geometry.hpp"
+#include "framework/mesh/medium.hpp"
 #include "framework/mesh/search/point_location.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -393,9 +393,9 @@ class WellExchange : public Coupler, public FollowsMesh {
   const BuoyantMatrix* rock_weight_;
   const BuoyantFractures* fracture_weight_;
   const std::vector<WellPlace>& places_;
-  std::vector<int> cells_;              ///< in which places lie, of the rock or of the fracture
-  std::vector<AroundWell> around_;      ///< what shares the rate of each place
-  Vector log_of_radii_;                 ///< ln(r_e/r_w) + skin without a given index; of places in fractures in space only
+  std::vector<int> cells_;          ///< in which places lie, of the rock or of the fracture
+  std::vector<AroundWell> around_;  ///< what shares the rate of each place
+  Vector log_of_radii_;             ///< ln(r_e/r_w) + skin without a given index; of places in fractures in space only
   std::vector<EarlyResistance> early_;  ///< one a place; of the others zero
   Vector diffusivity_;                  ///< around places in rock without a given index, m^2/s
   Field& memory_;                       ///< m_k of every place, m^2/s

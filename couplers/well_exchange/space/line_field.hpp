@@ -17,7 +17,8 @@ struct ClosedPlane {
 /// it in the metric rho^2 = m x·M^-1 x: along a line without end −ln rho, and else
 ///   (asinh(b/rho) − asinh(a/rho))/2,
 /// where the line reaches from a to b beside the point. Transforms at s = c decay (c: m over the storage) replace these
-/// by K_0(rho sqrt(decay)), and by half of the integral of exp(−rho sqrt(decay) cosh u) from asinh(a/rho) to asinh(b/rho).
+/// by K_0(rho sqrt(decay)), and by half of the integral of exp(−rho sqrt(decay) cosh u) from asinh(a/rho) to
+/// asinh(b/rho).
 class LineField {
  public:
   /// `planes`: none, one (the line has a mirror image behind it), or two parallel ones between which a straight line
@@ -37,8 +38,8 @@ class LineField {
 
  private:
   struct Part {
-    Point from, direction;     ///< in the metric, m; unit
-    double length, weight;     ///< m (0: without end); m of the first part over that of this one
+    Point from, direction;  ///< in the metric, m; unit
+    double length, weight;  ///< m (0: without end); m of the first part over that of this one
   };
   void add(const Point& from, const Point& to, const Tensor& mobility);
   double sum(const Point& x, double decay, double least_distance) const;

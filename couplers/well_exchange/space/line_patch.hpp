@@ -47,7 +47,7 @@ class LinePatch {
   std::vector<Triplet> entries_;
   std::vector<Point> points_;     ///< centres of the cells around, m
   std::vector<Outside> outside_;  ///< pressures there times weights enter the balances of cells
-  mutable SparseLu solver_;  ///< keeps the ordering of its first matrix
+  mutable SparseLu solver_;       ///< keeps the ordering of its first matrix
 };
 
 }  // namespace sprekk::couplers

@@ -14,7 +14,7 @@
 namespace sprekk::couplers {
 namespace {
 
-constexpr double alike = 1e-12;    // of mobilities but for a factor, and of directions
+constexpr double alike = 1e-12;     // of mobilities but for a factor, and of directions
 constexpr double at_a_side = 1e-9;  // in lengths of the line
 
 /// The pieces of one line: places from `first` to before `last`.
