@@ -22,6 +22,15 @@ struct WellPlace {
   double skin = 0;
   /// Rate over difference of pressure, m^2/(Pa s), in space m^3/(Pa s); absent where it follows from the mesh.
   std::optional<double> index;
+  /// In space: a straight piece of a line along which the well is open to the rock, in one cell. The pieces of a line
+  /// follow one another, and have the same name.
+  struct Piece {
+    int cell;
+    Point from, to;           ///< m
+    std::vector<Point> line;  ///< the whole line, m
+    double length() const { return (to - from).norm(); }
+  };
+  std::optional<Piece> piece;
 };
 
 /// What surrounds a place: cells of the rock or of fractures, with their shares of the rate there.

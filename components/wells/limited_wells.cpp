@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/matrix_of.hpp"
+#include "framework/mesh/medium.hpp"
+#include "framework/mesh/search/line_in_cells.hpp"
 #include "framework/round_off.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -22,12 +25,35 @@ std::vector<std::string> names_of(const Options& options, const Origin& origin) 
   return names;
 }
 
-std::vector<WellPlace> places_of(const Options& options) {
+/// The pieces of a line, each a place with its part of a given index.
+void add_line(std::vector<WellPlace>& places, const WellPlace& whole, const std::vector<Point>& line,
+              const Mesh& mesh) {
+  std::vector<PieceInCell> pieces;
+  try {
+    pieces = line_in_cells(mesh, line);
+  } catch (const std::invalid_argument& outside) {
+    throw InputError(whole.origin, "well '" + whole.name + "' lies outside the " + medium_name(), outside.what(),
+                     "move it inside");
+  }
+  double length = 0;
+  for (const PieceInCell& piece : pieces) length += (piece.to - piece.from).norm();
+  for (const PieceInCell& piece : pieces) {
+    WellPlace place = whole;
+    place.at = 0.5 * (piece.from + piece.to);
+    place.piece = {piece.cell, piece.from, piece.to, line};
+    if (place.index) *place.index *= place.piece->length() / length;
+    places.push_back(place);
+  }
+}
+
+std::vector<WellPlace> places_of(const Options& options, const Mesh& mesh) {
   std::vector<WellPlace> places;
   int number = 0;
   for (const auto& [name, well] : options.wells) {
     const auto add = [&, &well = well](const std::string& label, const Perforation& place, const Origin& origin) {
-      places.push_back({number, label, origin, *place.at, place.fracture, well.radius, well.skin, place.index});
+      const Point at = place.at ? *place.at : place.points.front();
+      const WellPlace whole{number, label, origin, at, place.fracture, well.radius, well.skin, place.index, {}};
+      place.at ? places.push_back(whole) : add_line(places, whole, place.points, mesh);
     };
     if (well.places.empty()) add(name, well.only, well.origin);
     for (const auto& [label, place] : well.places) add(name + "." + label, place, place.origin);
@@ -76,7 +102,7 @@ LimitedWells::LimitedWells(const ComponentContext& context, const Options& optio
     : Component(context.name),
       options_(options),
       names_(names_of(options_, context.origin)),
-      places_(places_of(options_)),
+      places_(places_of(options_, context.mesh)),
       pressure_(
           context.fields.add(context.mesh, listed(context, "pressure", names_.size(),
                                                   Role::unknown(BlockKind::interface), "Pa", "Pressure in the wells"))),
@@ -217,10 +243,15 @@ void LimitedWells::report(std::vector<Quantity>& quantities) const {
     quantities.push_back(
         {column + ".binds_0_rate_1_pressure_2_shut", "1", static_cast<double>(binding_now(w, rates[w]))});
   }
-  for (std::size_t k = 0; k < places_.size(); ++k)
-    if (places_[k].name != names_[places_[k].well])
-      quantities.push_back(
-          {name() + "." + places_[k].name + ".rate", volume_rate_unit, rate_.now()[static_cast<int>(k)]});
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    if (places_[k].name == names_[places_[k].well]) continue;
+    const double rate = rate_.now()[static_cast<int>(k)];
+    const bool is_same_line = k > 0 && places_[k].piece && places_[k - 1].name == places_[k].name;
+    if (is_same_line)
+      quantities.back().value += rate;
+    else
+      quantities.push_back({name() + "." + places_[k].name + ".rate", volume_rate_unit, rate});
+  }
 }
 
 void LimitedWells::note_step(Notes& notes, const StepTime&) const {

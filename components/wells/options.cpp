@@ -1,6 +1,8 @@
 #include "components/wells/options.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 #include "components/capabilities/one_place.hpp"
@@ -11,13 +13,20 @@ namespace {
 
 void add_place(Spec& spec, Perforation& place) {
   spec.point("at", place.at, {.unit = "m", .doc = "Where the well is open."});
+  if constexpr (dimension == 3)
+    spec.points("points", place.points,
+                {.unit = "m", .doc = "Instead of `at`: corners of a line along which it is open to the rock."});
   spec.text("fracture", place.fracture, {.doc = "It is open to this fracture at `at`; without it, to the rock."});
   spec.quantity(
       "index", place.index,
       {.unit = dimension == 2 ? "m^2/(Pa*s)" : "m^3/(Pa*s)",
        .range = positive(),
-       .doc = "Rate over difference of pressure to the cells around it. Without it, in rock it follows from the "
-              "mesh, the radius and the skin; in a fracture the well has the pressure at its point."});
+       .doc =
+           dimension == 2
+               ? "Rate over difference of pressure to the cells around it. Without it, in rock it follows from the "
+                 "mesh, the radius and the skin; in a fracture the well has the pressure at its point."
+               : "Rate over difference of pressure to the cells around it, of the whole line. Without it, along lines "
+                 "in rock and at points of fractures it follows from the mesh, the radius and the skin."});
 }
 
 Spec place_spec(Perforation& place) {
@@ -26,10 +35,28 @@ Spec place_spec(Perforation& place) {
   return spec;
 }
 
+void check_place_in_space(const Perforation& place, const Origin& origin) {
+  const bool is_line = !place.points.empty();
+  if (is_line == place.at.has_value())
+    throw InputError(origin, is_line ? "the well has two places" : "the well has no place",
+                     is_line ? "'at' and 'points' are both given" : "'at' and 'points' are missing",
+                     is_line ? "write one of them" : "say where it is open, as in 'points: [[x, y, z], [x, y, z]]'");
+  if (place.points.size() == 1 || std::ranges::adjacent_find(place.points) != place.points.end())
+    throw InputError(origin, "the well is no line", "its 'points' are less than two that differ",
+                     "give both ends of the part of the bore hole that is open");
+  if (is_line && place.fracture)
+    throw InputError(origin, "a line of a well is open to the rock", "'fracture' and 'points' are both given",
+                     "give the point at which the well meets the fracture, 'at'");
+  if (place.at && !place.fracture && !place.index)
+    throw InputError(origin, "the index of a well at a point of the rock is not known",
+                     "the pressure at a point has no bound in space", "write a line, 'points', or give its 'index'");
+}
+
 void check_place(const Perforation& place, const Origin& origin, bool has_radius) {
-  if (!place.at)
+  if constexpr (dimension == 3) check_place_in_space(place, origin);
+  if (dimension == 2 && !place.at)
     throw InputError(origin, "the well has no place", "'at' is missing", "say where it is open, as in 'at: [x, y]'");
-  if ((place.fracture || place.index) && has_radius)
+  if (((dimension == 2 && place.fracture) || place.index) && has_radius)
     throw InputError(origin, "'radius' and 'skin' have no effect",
                      place.index ? "the index of the well is given" : "in a fracture they do not count",
                      "remove them, or what replaces them");
@@ -62,7 +89,7 @@ void check_well(const WellOptions& well, const Node& node) {
   }
   const bool has_radius = node.find("radius") || node.find("skin");
   if (well.places.empty()) return check_place(well.only, node.origin, has_radius);
-  if (well.only.at || well.only.fracture || well.only.index)
+  if (well.only.at || !well.only.points.empty() || well.only.fracture || well.only.index)
     throw InputError(node.origin, "'places' contradicts 'at', 'fracture' and 'index' of the well",
                      "both say where the well is open", "write them under 'places' alone");
   for (const auto& [name, place] : well.places) check_place(place, place.origin, has_radius && well.places.size() == 1);
@@ -75,7 +102,9 @@ Spec well_spec(WellOptions& well) {
   spec.data(
       "rate", well.rate,
       {.unit = volume_rate_unit,
-       .doc = "Volume of fluid per time and metre of depth that it is to inject, or with a negative rate extract.",
+       .doc = dimension == 2
+                  ? "Volume of fluid per time and metre of depth that it is to inject, or with a negative rate extract."
+                  : "Volume of fluid per time that it is to inject, or with a negative rate extract.",
        .in_time = true});
   spec.data("pressure", well.pressure,
             {.unit = "Pa", .doc = "Its pressure, whatever the rate, in both directions.", .in_time = true});
@@ -86,7 +115,9 @@ Spec well_spec(WellOptions& well) {
              .in_time = true});
   spec.data("lowest_pressure", well.lowest_pressure,
             {.unit = "Pa", .doc = "The same for a well that extracts, below.", .in_time = true});
-  spec.quantity("radius", well.radius, {.unit = "m", .range = positive(), .doc = "Of the bore hole, in rock."});
+  spec.quantity(
+      "radius", well.radius,
+      {.unit = "m", .range = positive(), .doc = dimension == 2 ? "Of the bore hole, in rock." : "Of the bore hole."});
   spec.quantity("skin", well.skin,
                 {.doc = "Additional resistance of rock at the bore hole: the drop of pressure is (ln(r_e/r_w) + skin) "
                         "rate/(2 pi mobility).",

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "framework/config/spec.hpp"
 
@@ -12,9 +13,10 @@ namespace sprekk::wells {
 /// A place where a well is open.
 struct Perforation {
   Origin origin;
-  std::optional<Point> at;  ///< m
+  std::optional<Point> at;    ///< m
+  std::vector<Point> points;  ///< m, in space: of a line in the rock
   std::optional<std::string> fracture;
-  std::optional<double> index;  ///< m^2/(Pa s), in space m^3/(Pa s)
+  std::optional<double> index;  ///< m^2/(Pa s), in space m^3/(Pa s), of the whole line
 };
 
 /// One well: what it is to do, its limits, and its places.

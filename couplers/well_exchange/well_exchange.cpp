@@ -1,28 +1,26 @@
 // well_exchange: fluid flows between wells and the rock or the fractures in which they are open.
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "components/capabilities/bore_holes.hpp"
 #include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
 #include "components/capabilities/matrix_fluid.hpp"
 #include "components/capabilities/wells.hpp"
 #include "couplers/well_exchange/early_resistance.hpp"
-#include "couplers/well_exchange/equivalent_radius.hpp"
-#include "couplers/well_exchange/well_patch.hpp"
+#include "couplers/well_exchange/rock_openings.hpp"
 #include "framework/assembly/balance_rows.hpp"
 #include "framework/assembly/follows_mesh.hpp"
-#include "framework/discretization/plane/point_source.hpp"
 #include "framework/discretization/principal_axes.hpp"
 #include "framework/field/units_of_amounts.hpp"
 #include "framework/invariants.hpp"
 #include "framework/matrix_of.hpp"
+#include "framework/mesh/geometry.hpp"
 #include "framework/mesh/medium.hpp"
-#include "framework/mesh/plane/planar.hpp"
 #include "framework/mesh/search/point_location.hpp"
 #include "framework/scene/registry.hpp"
 
@@ -43,7 +41,8 @@ struct WellExchangeOptions {
 /// cells at the place, among which the rate is shared (point_source, FractureFluid::shares_at). In rock R =
 /// (ln(r_e/r_w) + skin)/(2 pi sqrt(det M)), Peaceman's index, and what a rate that changes adds to it
 /// (EarlyResistance): weight_k m_k/(2 pi sqrt(det M)), dm_k/dt = dq/dt − m_k c/scale_k. In a fracture R is that of the
-/// fracture between the place and the centres of cells (FractureFluid::rise_at), which is zero in the middle of a cell.
+/// fracture between the place and the centres of cells (FractureFluid::rise_at), which is zero in the middle of a cell;
+/// in space that around a bore hole (BoreHolesInFractures).
 /// R = 1/index where the scene gives one. The rows are pressures: as rates, a place with a small index would be judged
 /// by what flows at one with a large index. The terms of the rock are constant, whichever limit of the well binds: what
 /// switches is on the side of the wells.
@@ -56,6 +55,7 @@ class WellExchange : public Coupler, public FollowsMesh {
         rock_(context.find<MatrixFluid>()),
         fluxes_(context.find<MatrixFluxes>()),
         fracture_(context.find<FractureFluid>()),
+        bores_(context.find<BoreHolesInFractures>()),
         rock_weight_(context.find<BuoyantMatrix>()),
         fracture_weight_(context.find<BuoyantFractures>()),
         places_(wells_.places()),
@@ -72,8 +72,9 @@ class WellExchange : public Coupler, public FollowsMesh {
     std::vector<Triplet> of_wells;
     for (int k = 0; k < count(); ++k) {
       of_wells.emplace_back(k, places_[k].well, -1.0);
-      places_[k].fracture ? open_to_fracture(k, context) : open_to_rock(k);
+      places_[k].fracture ? open_to_fracture(k, context) : check_rock(k);
     }
+    open_to_rock();
     of_wells_ = operator_of(of_wells, wells_.pressure().size());
     find_weights();
     use(around_);
@@ -111,7 +112,7 @@ class WellExchange : public Coupler, public FollowsMesh {
       double scale = resistance_[k];
       if (scale == 0) {
         const double conductance = fracture_->conductance(cells_[k]);
-        scale = conductance > 0 ? 1 / conductance : 1;
+        scale = conductance > 0 ? 1 / conductance : 1;  // what bore holes add does not vary by much
       }
       of_wells[k] = scale;
       SPREKK_ASSERT(std::isfinite(scale) && scale > 0, k, scale);
@@ -214,7 +215,8 @@ class WellExchange : public Coupler, public FollowsMesh {
     std::vector<Triplet> by_aperture;
     for (int k = 0; k < count(); ++k) {
       if (!places_[k].fracture || places_[k].index) continue;
-      const FractureFluid::Rise rise = fracture_->rise_at(cells_[k], places_[k].at);
+      const FractureFluid::Rise rise = dimension == 2 ? fracture_->rise_at(cells_[k], places_[k].at)
+                                                      : bores_->rise_at_bore(cells_[k], log_of_radii_[k]);
       of_rate[k] += rise.value;
       for (const auto& [cell, by] : rise.by_aperture) by_aperture.emplace_back(k, cell, by * wells_.rate().now()[k]);
     }
@@ -242,19 +244,34 @@ class WellExchange : public Coupler, public FollowsMesh {
     return mean;
   }
 
+  /// The higher end of a piece of a line, or else middle(place).
+  Point highest_point(int place) const {
+    const std::optional<WellPlace::Piece>& piece = places_[place].piece;
+    if (!piece) return middle(place);
+    return weight_between(place, piece->from, piece->to) < 0 ? piece->to : piece->from;
+  }
+
   /// A column of fluid at rest stands in each well; the pressure of the well is that at its highest place.
   void find_weights() {
-    std::vector<int> highest(wells_.pressure().size(), none);
+    std::vector<std::optional<Point>> highest(wells_.pressure().size());
     for (int k = 0; k < count(); ++k) {
-      int& best = highest[places_[k].well];
-      if (best == none || weight_between(k, middle(best), middle(k)) < 0) best = k;
+      std::optional<Point>& best = highest[places_[k].well];
+      const Point point = highest_point(k);
+      if (!best || weight_between(k, *best, point) < 0) best = point;
     }
-    for (int k = 0; k < count(); ++k) weight_[k] = weight_between(k, middle(highest[places_[k].well]), middle(k));
+    for (int k = 0; k < count(); ++k) weight_[k] = weight_between(k, *highest[places_[k].well], middle(k));
   }
 
   void open_to_fracture(int k, const CouplerContext& context) {
     cells_[k] = fracture_cell(places_[k], context);
     around_[k] = {&fracture_->pressure(), {{cells_[k], 1.0}}};
+    const WellPlace& place = places_[k];
+    if (dimension == 2 || place.index) return;
+    if (!bores_)
+      throw InputError(place.origin, "the index of well '" + place.name + "' is not known",
+                       "this flow in fractures does not tell what a bore hole feels", "give its 'index'");
+    const double bore = place.radius * std::exp(-std::min(place.skin, 0.0));  // as in rock
+    log_of_radii_[k] = bores_->log_of_radii(cells_[k], place.at, bore, place.origin) + std::max(place.skin, 0.0);
   }
 
   int fracture_cell(const WellPlace& place, const CouplerContext& context) const {
@@ -269,10 +286,10 @@ class WellExchange : public Coupler, public FollowsMesh {
     const int nearest = nearest_fracture_cell(
         mesh_, place.at, [&](int cell) { return mesh_.fracture_cells[cell].fracture == fracture; });
     const FractureCell& cell = mesh_.fracture_cells[nearest];
-    const double away = (cell.center - place.at).norm();
-    if (away > cell.measure)
+    const double away = (cell.center - place.at).norm(), size = cell.size();
+    if (away > size)
       throw InputError(place.origin, "well '" + place.name + "' is not on fracture '" + *place.fracture + "'",
-                       fmt::format("the nearest cell is {:.3g} m away and only {:.3g} m long", away, cell.measure),
+                       fmt::format("the nearest cell is {:.3g} m away and only {:.3g} m long", away, size),
                        "move it onto the fracture");
     if (!fracture_->is_in_fracture_cell(nearest))
       throw InputError(place.origin, "well '" + place.name + "' is open to a fracture without fluid",
@@ -294,15 +311,15 @@ class WellExchange : public Coupler, public FollowsMesh {
   }
 
   double conductance_of_rock(int k) const {
-    return 2 * std::numbers::pi * std::sqrt(fluxes_->mobility()[cells_[k]].determinant());
+    return 2 * std::numbers::pi * open_length(places_[k]) * mobility_across(places_[k], mobility_at(k));
   }
+  const Tensor& mobility_at(int k) const { return fluxes_->mobility()[cells_[k]]; }
 
   /// The resistance of a place in rock, and the diffusivity around it in the metric of its index.
   void use_rock(int k) {
-    const Tensor& mobility = fluxes_->mobility()[cells_[k]];
     resistance_[k] = log_of_radii_[k] / conductance_of_rock(k);
-    const double largest = principal_axes(mobility).values[1];
-    diffusivity_[k] = rock_->diffusivity(cells_[k]) * std::sqrt(mobility.determinant()) / largest;
+    const double largest = principal_axes(mobility_at(k)).values.maxCoeff();
+    diffusivity_[k] = rock_->diffusivity(cells_[k]) * mobility_across(places_[k], mobility_at(k)) / largest;
   }
 
   /// The factor by which a step of backward Euler reduces m_k.
@@ -326,27 +343,14 @@ class WellExchange : public Coupler, public FollowsMesh {
     if (!known.isZero(0)) assembly.add(rate, known);
   }
 
-  /// The same where the permeability of the rock follows the state: with a given index.
-  void open_to_rock_that_follows(int k) {
-    const WellPlace& place = places_[k];
-    if (!place.index)
-      throw InputError(place.origin, "the index of well '" + place.name + "' is not known",
-                       "the permeability of its rock follows the state, and the index would follow it as well",
-                       "give its 'index', or a permeability that does not depend on the state");
-    const PointSource source = point_source(mesh_, place.at, [&](int cell) {
-      return mesh_.cell_region[cell] == mesh_.cell_region[cells_[k]] && rock_->is_in_cell(cell);
-    });
-    around_[k] = {&rock_->pressure(), source.shares};
-  }
-
-  /// The cells of a place in rock; finds its index.
-  void open_to_rock(int k) {
+  /// Finds the cell of a place in rock.
+  void check_rock(int k) {
     const WellPlace& place = places_[k];
     if (!rock_ || !fluxes_)
       throw InputError(place.origin, "well '" + place.name + "' is open to rock without fluid",
                        "its coupler stands between no flow in the matrix",
                        "name the flow in the matrix in `between`, or the fracture in which it is open");
-    const int home = PointLocation(mesh_).cell_at(place.at);
+    const int home = place.piece ? place.piece->cell : PointLocation(mesh_).cell_at(place.at);
     if (home == none)
       throw InputError(place.origin, "well '" + place.name + "' lies outside the " + medium_name(),
                        "there is no cell at its position", "move it inside");
@@ -355,43 +359,29 @@ class WellExchange : public Coupler, public FollowsMesh {
                        "the flow does not live in the region " + mesh_.region_names[mesh_.cell_region[home]],
                        "move the well, or name the region in 'regions' of the flow");
     cells_[k] = home;
-    if (fluxes_->mobility_follows_state()) return open_to_rock_that_follows(k);
-    const Tensor& mobility = fluxes_->mobility()[home];
-    if (!(mobility.determinant() > 0))
+    if (fluxes_->mobility_follows_state()) {
+      if (!place.index)
+        throw InputError(place.origin, "the index of well '" + place.name + "' is not known",
+                         "the permeability of its rock follows the state, and the index would follow it as well",
+                         "give its 'index', or a permeability that does not depend on the state");
+    } else if (!(mobility_at(k).determinant() > 0)) {
       throw InputError(place.origin, "well '" + place.name + "' is open to rock that lets no fluid through",
                        "its permeability is zero", "give it a permeability, or move the well");
-    const std::vector<char> is_inner = place.index ? std::vector<char>() : inner_cells(mesh_);
-    const PointSource source = point_source(mesh_, place.at, [&](int cell) {
-      return mesh_.cell_region[cell] == mesh_.cell_region[home] && rock_->is_in_cell(cell) &&
-             conduct_alike(mobility, fluxes_->mobility()[cell]) && (is_inner.empty() || is_inner[cell]);
-    });
-    around_[k] = {&rock_->pressure(), source.shares};
-    if (place.index) return;
-    const double bore = radius_of_bore_hole(place.radius, mobility);
-    const double effective =
-        bore * std::exp(-std::min(place.skin, 0.0));  // rock that conducts well widens the bore hole
-    const std::optional<EarlyResistance> early = resistance_of(k, source, effective);
-    if (!early)
-      throw InputError(place.origin, "the index of well '" + place.name + "' cannot be found",
-                       "its cell at " + to_text(mesh_.cell_center[home]) + " touches a side or a fracture",
-                       "use smaller cells there, give its 'index', or name the 'fracture' in which it is open");
-    log_of_radii_[k] = early->log_of_radii + std::max(place.skin, 0.0);
-    early_[k] = *early;
-    if (!(log_of_radii_[k] > 0))
-      throw InputError(place.origin, "the index of well '" + place.name + "' is not positive",
-                       fmt::format("ln(r_e/r_w) + skin is {:.3g}: the cells have the pressure of the well at r_e = "
-                                   "{:.3g} m, and its radius is {:.3g} m",
-                                   log_of_radii_[k], effective * std::exp(early->log_of_radii), bore),
-                       "use larger cells, a smaller radius, or a larger skin");
+    }
   }
 
-  std::optional<EarlyResistance> resistance_of(int k, const PointSource& source, double bore) const {
-    const WellPlace& place = places_[k];
-    try {
-      return early_resistance(mesh_, *fluxes_, source, fluxes_->mobility()[cells_[k]], bore);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(place.origin, "the index of well '" + place.name + "' is not known for this flow", error.what(),
-                       "use matrix_flow/mpfa or matrix_flow/tpfa, or give its 'index'");
+  /// The cells of all places in rock, and their indices.
+  void open_to_rock() {
+    if (!rock_ || !fluxes_) return;
+    std::vector<int> cells = cells_;
+    for (int k = 0; k < count(); ++k)
+      if (places_[k].fracture) cells[k] = none;
+    const std::vector<RockOpening> openings = rock_openings(mesh_, *rock_, *fluxes_, places_, cells);
+    for (int k = 0; k < count(); ++k) {
+      if (places_[k].fracture) continue;
+      around_[k] = {&rock_->pressure(), openings[k].shares};
+      early_[k] = openings[k].early;
+      log_of_radii_[k] = early_[k].log_of_radii;
     }
   }
 
@@ -400,12 +390,13 @@ class WellExchange : public Coupler, public FollowsMesh {
   MatrixFluid* rock_;
   MatrixFluxes* fluxes_;
   FractureFluid* fracture_;
+  const BoreHolesInFractures* bores_;
   const BuoyantMatrix* rock_weight_;
   const BuoyantFractures* fracture_weight_;
   const std::vector<WellPlace>& places_;
-  std::vector<int> cells_;              ///< in which places lie, of the rock or of the fracture
-  std::vector<AroundWell> around_;      ///< what shares the rate of each place
-  Vector log_of_radii_;                 ///< ln(r_e/r_w) + skin of places in rock without a given index
+  std::vector<int> cells_;          ///< in which places lie, of the rock or of the fracture
+  std::vector<AroundWell> around_;  ///< what shares the rate of each place
+  Vector log_of_radii_;             ///< ln(r_e/r_w) + skin without a given index; of places in fractures in space only
   std::vector<EarlyResistance> early_;  ///< one a place; of the others zero
   Vector diffusivity_;                  ///< around places in rock without a given index, m^2/s
   Field& memory_;                       ///< m_k of every place, m^2/s

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "components/capabilities/fluid_fluxes.hpp"
-#include "couplers/well_exchange/early_resistance.hpp"
-#include "couplers/well_exchange/equivalent_radius.hpp"
+#include "couplers/well_exchange/plane/early_resistance.hpp"
+#include "couplers/well_exchange/plane/equivalent_radius.hpp"
 #include "framework/mesh/search/point_location.hpp"
 #include "tests/verification/balance_error.hpp"
 

@@ -10,8 +10,7 @@ set(compiled_alone "^framework/(acceleration|frame_output)$")
 # folders `plane` and `space` are for one of them. What is for a plane alone so far is listed here, and nowhere else.
 set(without_dimension "^framework/(formula|module|parallel|picture|dense|linear)$")
 set(in_a_plane_alone "^(framework/(remeshing|triangulation)|components/fine_fracture/(boundary_element|fine_level|growth|quarter_point|tips)|\
-components/(matrix_flow/ntpfa|wells)|\
-couplers/well_exchange)(/|[.]cpp$|$)")
+components/matrix_flow/ntpfa)(/|[.]cpp$|$)")
 
 # sprekk_sources(result folder dimension): the sources below `folder`, without those of modules and of the other dimension.
 function(sprekk_sources result folder dimension)

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "components/capabilities/bore_holes.hpp"
 #include "components/capabilities/fluid_density.hpp"
 #include "components/capabilities/fluid_fluxes.hpp"
 #include "components/capabilities/fracture_fluid.hpp"
@@ -58,6 +59,7 @@ class FractureFlow : public Component,
                      public FractureFluid,
                      public FractureFluxes,
                      public BuoyantFractures,
+                     public BoreHolesInFractures,
                      public HeedsStages,
                      public KeepsTotals,
                      public LivesInPart,
@@ -289,12 +291,14 @@ class FractureFlow : public Component,
     double value;                                     ///< Pa where its pressure is prescribed, else the rate, m^2/s
     std::vector<std::pair<int, double>> shares = {};  ///< in this step
     double level = 0;                                 ///< Pa, of the point above the mean of these cells
-    double bore = 0;  ///< in space, with a radius r: ln(r_e/r)/(2 pi), r_e: equivalent_radius
+    double bore = 0;                                  ///< in space, with a radius r: ln(r_e/r), r_e: equivalent_radius
   };
   /// By how much the pressure at the point exceeds the mean of its cells, for each unit of its rate.
   Rise rise_of(const OpenPoint& point) const;
   /// OpenPoint::bore. Throws InputError where the cells are too small, or at the rim of their fracture.
   double bore_at(const FracturePlace& where, int cell);
+  double log_of_radii(int cell, const Point& at, double radius, const Origin& where) const override;
+  Rise rise_at_bore(int cell, double log_of_radii) const override;
   void share(OpenPoint& point, bool is_given_pressure) const;
   void share_points();
   /// Shares follow from the accepted state, so they are the same in each pass of a step and in its monolithic solution.

@@ -128,27 +128,39 @@ double FractureFlow::bore_at(const FracturePlace& where, int cell) {
   if constexpr (dimension == 3) {
     if (!where.radius) return 0;
     if (const auto known = bores_.find(&where); known != bores_.end()) return known->second;
-    const Point at = point_at(cell, *where.at);
-    const double around = equivalent_radius(mesh_, drops_, cell, at, along_fracture(mesh_, cell, at));
-    if (around == 0)
-      throw InputError(
-          where.origin, "what a bore hole feels is not known here",
-          "the fracture cell at " + to_text(at) + " is at the rim of its fracture, or where it meets others",
-          "choose a point that is farther inside, or smaller cells");
-    if (around <= *where.radius)
-      throw InputError(where.origin, "the fracture cells are too small for the bore hole",
-                       fmt::format("those at {} stand for a radius of {:.3g} m", to_text(at), around),
-                       "use larger cells there");
-    return bores_[&where] = std::log(around / *where.radius) / (2 * M_PI);
+    return bores_[&where] = log_of_radii(cell, *where.at, *where.radius, where.origin);
   }
   return 0;
 }
 
+double FractureFlow::log_of_radii(int cell, const Point& place, double radius, const Origin& where) const {
+  if constexpr (dimension == 3) {
+    const Point at = point_at(cell, place);
+    const double around = equivalent_radius(mesh_, drops_, cell, at, along_fracture(mesh_, cell, at));
+    if (around == 0)
+      throw InputError(
+          where, "what a bore hole feels is not known here",
+          "the fracture cell at " + to_text(at) + " is at the rim of its fracture, or where it meets others",
+          "choose a point that is farther inside, or smaller cells");
+    if (around <= radius)
+      throw InputError(where, "the fracture cells are too small for the bore hole",
+                       fmt::format("those at {} stand for a radius of {:.3g} m", to_text(at), around),
+                       "use larger cells there");
+    return std::log(around / radius);
+  }
+  return 0;
+}
+
+FractureFluid::Rise FractureFlow::rise_at_bore(int cell, double log_of_radii) const {
+  const auto [value, by_aperture, by_state] = transmissivity(cell);
+  if (log_of_radii == 0 || value == 0) return {};
+  const double rise = log_of_radii / (2 * M_PI * value);
+  return {rise, {{cell, -rise / value * by_aperture}}};
+}
+
 FractureFluid::Rise FractureFlow::rise_of(const OpenPoint& point) const {
   if constexpr (dimension == 2) return rise_at(point.cell, point.at);
-  const auto [value, by_aperture, by_state] = transmissivity(point.cell);
-  if (point.bore == 0 || value == 0) return {};
-  return {point.bore / value, {{point.cell, -point.bore / (value * value) * by_aperture}}};
+  return rise_at_bore(point.cell, point.bore);
 }
 
 FractureFluid::Rise FractureFlow::rise_at(int cell, const Point& at) const {

@@ -1,4 +1,4 @@
-#include "couplers/well_exchange/well_patch.hpp"
+#include "couplers/well_exchange/plane/well_patch.hpp"
 
 #include <Eigen/LU>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "couplers/well_exchange/equivalent_radius.hpp"
+#include "couplers/well_exchange/plane/equivalent_radius.hpp"
 
 #include <cmath>
 
-#include "couplers/well_exchange/well_patch.hpp"
+#include "couplers/well_exchange/plane/well_patch.hpp"
 #include "framework/discretization/principal_axes.hpp"
 
 namespace sprekk::couplers {

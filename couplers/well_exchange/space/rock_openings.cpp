@@ -1,0 +1,154 @@
+// In space a well is a line through cells, each of which takes what enters along its piece of the line.
+#include "couplers/well_exchange/rock_openings.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "couplers/well_exchange/space/line_field.hpp"
+#include "couplers/well_exchange/space/line_patch.hpp"
+#include "framework/mesh/geometry.hpp"
+
+namespace sprekk::couplers {
+namespace {
+
+constexpr double alike = 1e-12;     // of mobilities but for a factor, and of directions
+constexpr double at_a_side = 1e-9;  // in lengths of the line
+
+/// The pieces of one line: places from `first` to before `last`.
+class LineOfWell {
+ public:
+  LineOfWell(const Mesh& mesh, const MatrixFluxes& fluxes, const std::vector<WellPlace>& places, int first, int last)
+      : mesh_(mesh), fluxes_(fluxes), places_(places), first_(first), last_(last) {
+    for (int k = first; k < last; ++k) lengths_[piece(k).cell] += piece(k).length();
+  }
+
+  void open(std::vector<RockOpening>& openings) const {
+    std::vector<Tensor> done;
+    for (int k = first_; k < last_; ++k) {
+      const Tensor mobility = direction_of(k);
+      if (std::ranges::any_of(done, [&](const Tensor& other) { return (other - mobility).norm() < alike; })) continue;
+      done.push_back(mobility);
+      find(mobility, openings);
+    }
+  }
+
+ private:
+  const WellPlace::Piece& piece(int k) const { return *places_[k].piece; }
+  const WellPlace& place() const { return places_[first_]; }
+
+  /// The mobility of the rock around a piece, but for a factor.
+  Tensor direction_of(int k) const {
+    const Tensor& mobility = fluxes_.mobility()[piece(k).cell];
+    return mobility / mobility.norm();
+  }
+
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw InputError(place().origin, "the index of well '" + place().name + "' cannot be found", why,
+                     "end its line farther from there (where it meets a fracture, open it to that by a place of its "
+                     "own), use smaller cells, or give its 'index'");
+  }
+
+  /// The sides that the cells of the line touch, for which LineField has images.
+  std::vector<ClosedPlane> planes(const Tensor& mobility) const {
+    const auto [planes, has_fracture] = touched_sides(mesh_, lengths_);
+    if (has_fracture) refuse("its cells touch a fracture");
+    for (const auto& [at, normal] : planes)
+      if ((mobility * normal - normal.dot(mobility * normal) * normal).norm() > at_a_side)
+        refuse("its cells touch the side at " + to_text(at) + ", to which the permeability is oblique");
+    if (planes.size() < 2) return planes;
+    const std::vector<Point>& line = piece(first_).line;
+    const Point along = line.back() - line.front();
+    const auto ends_at = [&](const ClosedPlane& plane) {
+      return std::ranges::any_of(std::vector{line.front(), line.back()}, [&](const Point& end) {
+        return std::abs(plane.normal.dot(end - plane.at)) < at_a_side * along.norm();
+      });
+    };
+    const bool is_between = planes.size() == 2 && line.size() == 2 && ends_at(planes[0]) && ends_at(planes[1]) &&
+                            std::abs(planes[0].normal.dot(along)) > (1 - at_a_side) * along.norm() &&
+                            std::abs(planes[1].normal.dot(along)) > (1 - at_a_side) * along.norm();
+    if (!is_between) refuse("its cells touch several sides, between which it is no straight line at right angles");
+    return planes;
+  }
+
+  LinePatch patch(const LineField& field, const Tensor& mobility, const std::vector<ClosedPlane>& planes) const {
+    try {
+      return {mesh_, fluxes_, lengths_, field, mobility, planes};
+    } catch (const std::invalid_argument& error) {
+      throw InputError(place().origin, "the index of well '" + place().name + "' is not known for this flow",
+                       error.what(), "use matrix_flow/mpfa or matrix_flow/tpfa, or give its 'index'");
+    }
+  }
+
+  /// The width of a cell along a direction, m.
+  double width(int cell, const Point& direction) const {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const int node : mesh_.cell_nodes[cell]) {
+      low = std::min(low, direction.dot(mesh_.nodes[node]));
+      high = std::max(high, direction.dot(mesh_.nodes[node]));
+    }
+    return high - low;
+  }
+
+  /// The openings of all pieces in rock of this mobility, but for a factor.
+  void find(const Tensor& mobility, std::vector<RockOpening>& openings) const {
+    const std::vector<ClosedPlane> planes = this->planes(mobility);
+    const double skin = place().skin;
+    const double radius = place().radius * std::exp(-std::min(skin, 0.0));  // as in a plane
+    const LineField field(piece(first_).line, mobility, radius, planes);
+    const LinePatch patch = this->patch(field, mobility, planes);
+    std::map<double, std::vector<double>> transformed;
+    const auto transforms = [&](double decay) -> const std::vector<double>& {
+      auto& known = transformed[decay];
+      if (known.empty()) known = patch.transformed_pressures(decay);
+      return known;
+    };
+    double area = 0;  // one for all pieces, so that all have the same transforms
+    for (int k = first_; k < last_; ++k) {
+      const auto& [cell, from, to, line] = piece(k);
+      area = std::max(area, mesh_.cell_measure[cell] / width(cell, (to - from).normalized()));
+    }
+    const std::vector<double> steady = patch.pressures();
+    for (int k = first_; k < last_; ++k) {
+      if ((direction_of(k) - mobility).norm() >= alike) continue;
+      const auto& [cell, from, to, line] = piece(k);
+      const auto row = std::distance(lengths_.begin(), lengths_.find(cell));
+      // Pressures are those of 1 m of the first part of the line: that of this part may be another one.
+      const double part = mobility_across(places_[k], mobility) / field.mobility();
+      const double log_of_radii = part * (field.pressure_at_bore(from, to) - steady[row]);
+      openings[k].early = fit_early_terms(log_of_radii, field.bore(), area, [&](double decay) {
+        return part * (field.transformed_pressure_at_bore(from, to, decay) - transforms(decay)[row]);
+      });
+      openings[k].early.log_of_radii += std::max(skin, 0.0);
+      require_positive_index(places_[k], openings[k].early.log_of_radii, field.bore() * std::exp(log_of_radii),
+                             field.bore());
+    }
+  }
+
+  const Mesh& mesh_;
+  const MatrixFluxes& fluxes_;
+  const std::vector<WellPlace>& places_;
+  int first_, last_;
+  std::map<int, double> lengths_;  ///< of the line in its cells, m
+};
+
+}  // namespace
+
+std::vector<RockOpening> rock_openings(const Mesh& mesh, const MatrixFluid&, const MatrixFluxes& fluxes,
+                                       const std::vector<WellPlace>& places, const std::vector<int>& cells) {
+  std::vector<RockOpening> openings(places.size());
+  const int count = static_cast<int>(places.size());
+  for (int k = 0; k < count; ++k)
+    if (cells[k] != none) openings[k].shares = {{cells[k], 1.0}};
+  for (int first = 0, last = 0; first < count; first = last) {
+    last = first + 1;
+    if (!places[first].piece || places[first].index) continue;
+    while (last < count && places[last].piece && places[last].name == places[first].name) ++last;
+    LineOfWell(mesh, fluxes, places, first, last).open(openings);
+  }
+  return openings;
+}
+
+}  // namespace sprekk::couplers
