@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "framework/config/data.hpp"
 #include "framework/config/input_error.hpp"
@@ -36,6 +37,31 @@ std::vector<Opening> openings(const ValuesOfWells& around_wells, const Vector& r
   return openings;
 }
 
+/// What flows into a well at its places and from outside, where at each place only the net rate does: cells that a
+/// share of its rate passes the other way mix with others outside of the well. nullopt where nothing flows in.
+std::optional<double> value_inside(const std::vector<Opening>& openings, std::optional<double> given) {
+  struct AtPlace {
+    double net = 0, leaving = 0, carried = 0;  // out of the well; out of cells, and with their values
+  };
+  std::map<int, AtPlace> places;
+  double net = 0;
+  for (const Opening& each : openings) {
+    AtPlace& at = places[each.place];
+    const double leaving = std::max(-each.rate, 0.0);
+    net += each.rate;
+    at.net += each.rate;
+    at.leaving += leaving;
+    at.carried += leaving * each.value;
+  }
+  double flow = given ? std::max(net, 0.0) : 0, carried = given ? flow * *given : 0;
+  for (const auto& [place, at] : places) {
+    if (at.net >= 0) continue;
+    flow -= at.net;
+    carried -= at.net * at.carried / at.leaving;
+  }
+  return flow > 0 ? std::optional(carried / flow) : std::nullopt;
+}
+
 WellMixture mixture(const std::vector<Opening>& openings, std::optional<double> given) {
   double net = 0, places = 0;
   for (const Opening& each : openings) {
@@ -51,6 +77,7 @@ WellMixture mixture(const std::vector<Opening>& openings, std::optional<double> 
   }
   WellMixture mixture;
   mixture.value = flow > 0 ? carried / flow : mean;
+  mixture.inside = value_inside(openings, given).value_or(mixture.value);
   SPREKK_ASSERT(std::isfinite(mixture.value), flow, carried);
   for (const Opening& each : openings) {
     const bool flows_in = flow > 0 && each.rate < 0;

@@ -28,7 +28,8 @@ struct WellMixture {
     int index;
     double value;
   };
-  double value = 0;  ///< the mean of the cells where nothing flows
+  double value = 0;   ///< the mean of the cells where nothing flows
+  double inside = 0;  ///< without what shares of the rate at one place exchange among its cells: what is reported
   std::vector<Derivative> by_rate, by_rock, by_fractures;
 };
 
