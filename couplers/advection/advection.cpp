@@ -114,7 +114,7 @@ void Advection::report(std::vector<Quantity>& quantities) const {
   for (std::size_t well = 0; well < fluid.size(); ++well)
     if (fluid[well])
       quantities.push_back(
-          {name() + "." + wells_.wells->names()[well] + "." + carried_.value, carried_.unit, fluid[well]->inside});
+          {name() + "." + wells_.wells->names()[well] + "." + carried_.value, carried_.unit, fluid[well]->value});
   // Cells that a shared rate passes the other way mix with the others inside of the place.
   const auto mean_of_source = [&](const FluidSource& source, const Vector& value) {
     double net = 0;

@@ -71,20 +71,31 @@ void append_sources(const StreamSources& sources, const std::vector<FluidSource>
   }
 }
 
-/// The streams out of wells into the cells that belong to the flow with this pressure.
-void append_wells(const StreamSources& sources, const Vector& rates, const Field* pressure, bool only_own_cells,
+/// The streams out of wells into the cells that belong to the flow with this pressure, and those between such cells
+/// where a share of a rate is negative (parts_in_well).
+void append_wells(const StreamSources& sources, const Vector& rates, const Field* pressure, Stream::From inside,
                   std::vector<Stream>& streams) {
   if (!sources.wells || !pressure) return;
+  const auto append = [&](Stream stream, int place, double share) {
+    if (inside == Stream::From::rock_cell && sources.mesh.cell_rank[stream.cell] != parallel::rank()) return;
+    stream.rate = share * rates[place];
+    streams.push_back(with_flux(stream, Stream::Flux::well, place, share));
+  };
   for (int k = 0; k < static_cast<int>(sources.wells->places().size()); ++k) {
     const AroundWell& around = sources.wells->surroundings()[k];
     if (around.pressure != pressure) continue;
-    for (const auto& [cell, share] : around.shares) {
-      if (only_own_cells && sources.mesh.cell_rank[cell] != parallel::rank()) continue;
-      const double rate = share * rates[k];
-      Stream stream{cell, rate, Stream::From::well, sources.wells->places()[k].well};
+    const std::vector<std::pair<int, double>> parts = parts_in_well(around);
+    for (const auto& [cell, part] : parts) {
+      Stream stream{cell, 0, Stream::From::well, sources.wells->places()[k].well};
       stream.is_outside = true;
-      streams.push_back(with_flux(stream, Stream::Flux::well, k, share));
+      append(stream, k, part);
     }
+    for (const auto& [other, share] : around.shares)
+      for (const auto& [cell, part] : parts) {
+        if (share >= 0) continue;
+        append({cell, 0, inside, other}, k, -share * part);
+        append({other, 0, inside, cell}, k, share * part);
+      }
   }
 }
 
@@ -142,7 +153,7 @@ std::vector<Stream> streams_of_rock(const StreamSources& sources, const FlowRate
   }
   append_walls(sources, rates.walls, 1, streams);
   append_sources(sources, rates.sources_in_rock, Stream::From::rock_cell, streams);
-  append_wells(sources, rates.wells, sources.rock_pressure, true, streams);
+  append_wells(sources, rates.wells, sources.rock_pressure, Stream::From::rock_cell, streams);
   return streams;
 }
 
@@ -172,7 +183,7 @@ std::vector<Stream> streams_of_fractures(const StreamSources& sources, const Flo
   for (const Junction& junction : mesh.junctions) append_junction(mesh, junction, fluxes, streams);
   append_walls(sources, rates.walls, -1, streams);
   append_sources(sources, rates.sources_in_fractures, Stream::From::fracture_cell, streams);
-  append_wells(sources, rates.wells, sources.fracture_pressure, false, streams);
+  append_wells(sources, rates.wells, sources.fracture_pressure, Stream::From::fracture_cell, streams);
   Vector net = Vector::Zero(mesh.fracture_cell_count());
   for (const Stream& stream : streams) net[stream.cell] += stream.rate;
   for (const FluidReservoir& reservoir : sources.fracture->fluid_reservoirs())

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "framework/config/data.hpp"
 #include "framework/config/input_error.hpp"
@@ -30,36 +29,11 @@ std::vector<Opening> openings(const ValuesOfWells& around_wells, const Vector& r
     const AroundWell& around = wells.surroundings()[k];
     for (const ValuesOfCells* medium : {&around_wells.rock, &around_wells.fractures})
       if (medium->value && medium->pressure == around.pressure)
-        for (const auto& [cell, share] : around.shares)
+        for (const auto& [cell, share] : parts_in_well(around))
           openings.push_back(
               {k, cell, medium == &around_wells.fractures, share, share * rates[k], medium->value->now()[cell]});
   }
   return openings;
-}
-
-/// What flows into a well at its places and from outside, where at each place only the net rate does: cells that a
-/// share of its rate passes the other way mix with others outside of the well. nullopt where nothing flows in.
-std::optional<double> value_inside(const std::vector<Opening>& openings, std::optional<double> given) {
-  struct AtPlace {
-    double net = 0, leaving = 0, carried = 0;  // out of the well; out of cells, and with their values
-  };
-  std::map<int, AtPlace> places;
-  double net = 0;
-  for (const Opening& each : openings) {
-    AtPlace& at = places[each.place];
-    const double leaving = std::max(-each.rate, 0.0);
-    net += each.rate;
-    at.net += each.rate;
-    at.leaving += leaving;
-    at.carried += leaving * each.value;
-  }
-  double flow = given ? std::max(net, 0.0) : 0, carried = given ? flow * *given : 0;
-  for (const auto& [place, at] : places) {
-    if (at.net >= 0) continue;
-    flow -= at.net;
-    carried -= at.net * at.carried / at.leaving;
-  }
-  return flow > 0 ? std::optional(carried / flow) : std::nullopt;
 }
 
 WellMixture mixture(const std::vector<Opening>& openings, std::optional<double> given) {
@@ -77,7 +51,6 @@ WellMixture mixture(const std::vector<Opening>& openings, std::optional<double> 
   }
   WellMixture mixture;
   mixture.value = flow > 0 ? carried / flow : mean;
-  mixture.inside = value_inside(openings, given).value_or(mixture.value);
   SPREKK_ASSERT(std::isfinite(mixture.value), flow, carried);
   for (const Opening& each : openings) {
     const bool flows_in = flow > 0 && each.rate < 0;
@@ -91,6 +64,15 @@ WellMixture mixture(const std::vector<Opening>& openings, std::optional<double> 
 }
 
 }  // namespace
+
+std::vector<std::pair<int, double>> parts_in_well(const AroundWell& around) {
+  double all = 0;
+  for (const auto& [cell, share] : around.shares) all += std::max(share, 0.0);
+  std::vector<std::pair<int, double>> parts;
+  for (const auto& [cell, share] : around.shares)
+    if (share > 0) parts.emplace_back(cell, share / all);
+  return parts;
+}
 
 bool ValuesOfWells::is_known(const AroundWell& around) const {
   return (rock.value && around.pressure == rock.pressure) || (fractures.value && around.pressure == fractures.pressure);

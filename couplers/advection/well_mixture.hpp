@@ -28,10 +28,13 @@ struct WellMixture {
     int index;
     double value;
   };
-  double value = 0;   ///< the mean of the cells where nothing flows
-  double inside = 0;  ///< without what shares of the rate at one place exchange among its cells: what is reported
+  double value = 0;  ///< the mean of the cells where nothing flows
   std::vector<Derivative> by_rate, by_rock, by_fractures;
 };
+
+/// The cells with which a well exchanges fluid at a place, and the parts of its rate there: those with a positive
+/// share. What a negative share takes from its cell passes to these cells outside of the well.
+std::vector<std::pair<int, double>> parts_in_well(const AroundWell& around);
 
 using Mixtures = std::vector<std::optional<WellMixture>>;
 

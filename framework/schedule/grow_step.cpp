@@ -128,6 +128,8 @@ GrowStep::GrowStep(const GrowOptions& options, const ScheduleContext& context)
   if (grows_within_step()) growing_->grow_within_steps();
 }
 
+double GrowStep::loads_of_growing() const { return std::max(overshoot(), usual_overshoot); }
+
 bool GrowStep::may_shrink(const StepTime& step) const { return step.dt > smallest_step_ * (1 + rounding::same); }
 
 StepStatus GrowStep::refused(const std::string& reason, const StepTime& step, double before, double now,
@@ -188,7 +190,7 @@ StepStatus GrowStep::look_and_grow(const StepTime& step) {
   }
   load_ = examine(step);
   SPREKK_ASSERT(!std::isnan(load_.now) && !std::isnan(load_.onset), load_.now, load_.onset);
-  const double later = std::max(overshoot(), usual_overshoot);
+  const double later = loads_of_growing();
   if (load_.onset > 1 + overshoot() && may_shrink(step))
     return refused(fmt::format("a tip is at {:.3g} times the load of growth", load_.onset), step, load_.onset_accepted,
                    load_.onset, overshoot());

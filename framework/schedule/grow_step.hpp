@@ -47,6 +47,8 @@ class GrowStep : public ScheduleStep {
 
   const GrowOptions& options() const { return options_; }
   double overshoot() const { return *options_.overshoot; }
+  /// By how much the load of tips that grow already may pass 1.
+  double loads_of_growing() const;
   bool grows_within_step() const { return options_.update == within_step; }
   /// In which steps tips grow with the state held, as with after_step, although growth belongs to the steps.
   enum class Holding {
@@ -75,7 +77,7 @@ class GrowStep : public ScheduleStep {
   /// closed, or would grow by less than the shortest increment, do not count, since they may stay above this load while
   /// others grow.
   bool has_come_to_rest() const {
-    return extensions_.empty() && growth_load_ <= 1 + overshoot() && load_.uneven <= options_.settled;
+    return extensions_.empty() && growth_load_ <= 1 + loads_of_growing() && load_.uneven <= options_.settled;
   }
   /// The largest load of all tips over 1 + overshoot/2, the load at which a repetition of a refused step is to end.
   double nearness() const { return std::max(load_.now, load_.onset) / (1 + 0.5 * overshoot()); }

@@ -128,6 +128,15 @@ class WellsAlongLines(SpaceRuns):
         print(f"deviated: {error:.1e}")
         self.assertLess(abs(error), 3e-3)  # what the expansion leaves out
 
+    def test_a_well_that_ends_on_a_row_of_centres(self):
+        """The next centres lie on its axis: as a well beside them by 1e-6 m."""
+        rates = []
+        for x in (0, 1e-6):
+            text = thiem("{kind: structured, cells: [21, 21, 15], shape: hexahedra}").replace("[0 m, 0 m, 0 m], [0 m, 0 m, 30 m]", f"[{x!r} m, 0 m, 11 m], [{x!r} m, 0 m, 30 m]")
+            rates.append(self.rate(text))
+        self.assertGreater(rates[0], 0.5 * 2 * np.pi * MOBILITY * PER_LOG * 19)
+        self.near(rates[0], rates[1], 1e-6)
+
     def test_fluid_with_weight_stays_at_rest(self):
         """A shut well through both layers and the fracture, and one without a rate: nothing flows, by what 100 kPa would drive."""
         rest = self.run_text(FIELD.replace("RATE", "rate: 0 m^3/s").replace("PLANT", "rate: 0 m^3/s"))
@@ -192,7 +201,8 @@ class WellsAlongLines(SpaceRuns):
     def test_what_is_refused(self):
         line = "points: [[0 m, 0 m, 0 m], [0 m, 0 m, 30 m]]"
         for change, message in (("at: [0 m, 0 m, 10 m]", "the pressure at a point has no bound in space"), ("points: [[0 m, 0 m, 10 m]]", "the well is no line"),
-                                ("points: [[0 m, 0 m, 10 m], [0 m, 0 m, 40 m]]", "lies outside"), ("points: [[97 m, 97 m, 0 m], [97 m, 97 m, 30 m]]", "its cells touch several sides"),
+                                ("points: [[0 m, 0 m, 10 m], [0 m, 0 m, 40 m]]", "lies outside"), ("points: [[97 m, 9 m, 0 m], [97 m, 9 m, 30 m]]", "its cells touch the open side 'right'"),
+                                ("points: [[0 m, 0 m, 0 m], [9 m, 0 m, 30 m]]", "its cells touch several sides"),
                                 (f"{line}, index: 1e-9 m^3/(Pa*s)", "'radius' and 'skin' have no effect")):
             run = self.call("check", self.write(thiem(HEXAHEDRA).replace(line, change), "refused.yaml"))
             self.assertIn(message, " ".join(run.stderr.split()), change)

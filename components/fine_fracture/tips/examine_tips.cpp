@@ -73,8 +73,12 @@ Growing::Load Tips::examine(const StepTime& step, bool followed_only) {
 
 bool Tips::is_far_above() const {
   constexpr double violent = 1.5;  // K_eq over the toughness: twice the energy that growth takes
-  return std::ranges::any_of(
-      tips_, [&](const Tip& tip) { return !tip.now.is_stopped && tip.now.is_evaluated && tip.now.load > violent; });
+  return std::ranges::any_of(tips_, [&](const Tip& tip) {
+    if (tip.now.is_stopped || !tip.now.is_evaluated) return false;
+    // A load that the fluid has held so far does not end in a jump.
+    const double held = is_viscous(tip) ? apparent_toughness(tip, tip.accepted.speed) / toughness(tip) : 1;
+    return tip.now.load > violent * std::max(1.0, held);
+  });
 }
 
 bool Tips::turns_sharply(const Tip& tip) const {

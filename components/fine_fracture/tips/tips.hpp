@@ -211,6 +211,7 @@ class Tips : public Component,
   /// K_eq (Pa sqrt(m)) of a viscous tip that the mesh follows and that moves with a speed (m/s): with the pressure that
   /// its last cell has, uniform, the opening of this cell has the volume of the tip solution.
   double apparent_toughness(const Tip& tip, double speed) const;
+  double apparent_toughness(const Tip& tip, double speed, double at_rest) const;  ///< with the K_IC `at_rest`
   /// K_eq of a tip at the end of this path, to which it grows in this step, Pa sqrt(m). Before the mesh follows a tip,
   /// its fluid holds it back, too; the paper's procedure knows the toughness alone.
   double resistance(const Tip& tip, const TipPath& path) const;

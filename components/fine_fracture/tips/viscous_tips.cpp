@@ -8,9 +8,12 @@
 namespace sprekk::fine_fracture {
 
 double Tips::apparent_toughness(const Tip& tip, double speed) const {
+  return apparent_toughness(tip, speed, toughness(tip));
+}
+
+double Tips::apparent_toughness(const Tip& tip, double speed, double at_rest) const {
   const double viscosity = surroundings_->fluid_viscosity(tip.end.fracture, tip.end.at_end);
   const LameParameters lame = surroundings_->stiffness(position(tip, {}));
-  const double at_rest = toughness(tip);
   const ViscousTip moving{at_rest, Elasticity{lame.lambda, lame.shear}.plane_modulus(), viscosity};
   const double full = moving.apparent_toughness(last_cell(tip.end).measure, speed);
   // Where the fluid lags behind the tip, there is no fluid near the tip, so only the toughness counts.
@@ -22,7 +25,7 @@ double Tips::resistance(const Tip& tip, const TipPath& path) const {
   if (!grows_within_steps_ || is_held_ || !is_viscous(tip)) return at_rest;
   // A repeated search of this step begins where the accepted state ends, and so does the advance.
   const double advance = length_of(position(tip, {}), path) - length_of(position(tip, {}), tip.accepted.path);
-  return at_rest * apparent_toughness(tip, std::max(0.0, advance) / step_.dt) / toughness(tip);
+  return apparent_toughness(tip, std::max(0.0, advance) / step_.dt, at_rest);
 }
 
 bool Tips::is_viscous(const Tip& tip) const {

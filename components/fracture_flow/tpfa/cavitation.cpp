@@ -95,7 +95,7 @@ std::uint64_t FractureFlow::discrete_state() const {
 
 void FractureFlow::begin_step(const StepTime& step) {
   if (history_) history_->begin_step({step.start, step.dt, step.end}, state_remembered());
-  share_points_at_start();
+  share_points();
   if (density_) weigh_links();
   if (!empty_) return;
   // An aperture over a pressure, as they are at the start of the step.

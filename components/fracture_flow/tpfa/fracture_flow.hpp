@@ -301,8 +301,9 @@ class FractureFlow : public Component,
   Rise rise_at_bore(int cell, double log_of_radii) const override;
   void share(OpenPoint& point, bool is_given_pressure) const;
   void share_points();
-  /// Shares follow from the accepted state, so they are the same in each pass of a step and in its monolithic solution.
-  void share_points_at_start();
+  /// shares_at() in the present state.
+  std::vector<std::pair<int, double>> present_shares(int cell, const Point& at) const;
+  std::vector<std::pair<int, double>> shares_of_conductors(int cell, const Point& at) const;
   double pressure_at(const OpenPoint& point, double rate) const;  ///< Pa
   void check_points_apart() const;
   void assemble_prescribed_points(Assembly& assembly, const StepTime& step) const;

@@ -102,12 +102,35 @@ double FractureFlow::part_before(const Spot& spot, const HalfCell& home) {
 }
 
 std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Point& at) const {
+  std::vector<std::pair<Field*, Vector>> present;
+  const auto rewind = [&](Field& field) {
+    if (field.now() == field.accepted()) return;
+    present.emplace_back(&field, field.now());
+    field.set(field.accepted());
+  };
+  rewind(aperture_);
+  for (const std::size_t variable : named_)
+    for (const StateField& source : state_.of(variable)) rewind(*source.field);
+  std::vector<std::pair<int, double>> shares = present_shares(cell, at);
+  for (auto& [field, values] : present) field->set(std::move(values));
+  return shares;
+}
+
+/// In space, wherever the fracture conducts.
+std::vector<std::pair<int, double>> FractureFlow::shares_of_conductors(int cell, const Point& at) const {
+  std::vector<std::pair<int, double>> shares = along_fracture(mesh_, cell, at);
+  const bool is_alone = std::ranges::any_of(shares, [&](const auto& share) {
+    const bool may_be_empty = options_.cavitation && share.second < 0;  // nothing can be taken from there
+    return is_prescribed_[share.first] != 0 || may_be_empty;
+  });
+  return is_alone ? std::vector<std::pair<int, double>>{{cell, 1.0}} : shares;
+}
+
+std::vector<std::pair<int, double>> FractureFlow::present_shares(int cell, const Point& at) const {
   if constexpr (dimension == 3) {
-    std::vector<std::pair<int, double>> shares = along_fracture(mesh_, cell, point_at(cell, at));
-    const bool is_alone = std::ranges::any_of(shares, [&](const auto& share) {
-      const bool may_be_empty = options_.cavitation && share.second < 0;  // nothing can be taken from there
-      return is_prescribed_[share.first] != 0 || transmissivity(share.first).value == 0 || may_be_empty;
-    });
+    std::vector<std::pair<int, double>> shares = shares_of_conductors(cell, point_at(cell, at));
+    const bool is_alone =
+        std::ranges::any_of(shares, [&](const auto& share) { return transmissivity(share.first).value == 0; });
     return is_alone ? std::vector<std::pair<int, double>>{{cell, 1.0}} : shares;
   }
   const Spot spot = this->spot(cell, at);
@@ -136,7 +159,7 @@ double FractureFlow::bore_at(const FracturePlace& where, int cell) {
 double FractureFlow::log_of_radii(int cell, const Point& place, double radius, const Origin& where) const {
   if constexpr (dimension == 3) {
     const Point at = point_at(cell, place);
-    const double around = equivalent_radius(mesh_, drops_, cell, at, along_fracture(mesh_, cell, at));
+    const double around = equivalent_radius(mesh_, drops_, cell, at, shares_of_conductors(cell, at));
     if (around == 0)
       throw InputError(
           where, "what a bore hole feels is not known here",

@@ -170,20 +170,6 @@ void FractureFlow::share_points() {
   }
 }
 
-void FractureFlow::share_points_at_start() {
-  std::vector<std::pair<Field*, Vector>> present;
-  const auto rewind = [&](Field& field) {
-    if (field.now() == field.accepted()) return;
-    present.emplace_back(&field, field.now());
-    field.set(field.accepted());
-  };
-  rewind(aperture_);
-  for (const std::size_t variable : named_)
-    for (const StateField& source : state_.of(variable)) rewind(*source.field);
-  share_points();
-  for (auto& [field, values] : present) field->set(std::move(values));
-}
-
 void FractureFlow::share(OpenPoint& point, bool is_given_pressure) const {
   // In space a pressure without a bore hole is that of its cell: a mean of cells that the walls hold apart could be
   // kept only by one that is beyond it.

@@ -95,21 +95,19 @@ HeldDirections combined(const std::vector<Direction>& directions) {
     return held;
   }
   // The displacements along the held axes, from those along the directions; two in space leave the one across them.
+  int free = none;
+  if constexpr (dimension == 3)
+    if (count == 2) std::tie(held.axes, free) = axes_with(plane_normal(directions));
   const auto given = static_cast<int>(directions.size());
   Eigen::MatrixXd vectors(given, dimension);
   Eigen::VectorXd weights(given);  // so that squares count by measure
-  for (int i = 0; i < given; ++i) weights[i] = 1 / std::sqrt(directions[i].vector.norm());
-  for (int i = 0; i < given; ++i) vectors.row(i) = weights[i] * directions[i].vector.transpose();
-  int free = none;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(0.1 * parallel);
-  decomposition.compute(vectors);
-  Eigen::MatrixXd along = decomposition.pseudoInverse() * weights.asDiagonal();
-  if constexpr (dimension == 3)
-    if (count == 2) {
-      std::tie(held.axes, free) = axes_with(plane_normal(directions));
-      along = held.axes.transpose() * along;
-    }
+  for (int i = 0; i < given; ++i) {
+    weights[i] = 1 / std::sqrt(directions[i].vector.norm());
+    vectors.row(i) = weights[i] * directions[i].vector.transpose() * held.axes;
+  }
+  if (free != none) vectors.col(free).setZero();
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(vectors);
+  const Eigen::MatrixXd along = decomposition.pseudoInverse() * weights.asDiagonal();
   for (int k = 0; k < dimension; ++k) {
     if (k == free) continue;
     held.is_held[k] = true;

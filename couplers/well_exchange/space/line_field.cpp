@@ -14,6 +14,7 @@ namespace sprekk::couplers {
 namespace {
 
 constexpr double negligible_exponent = 40;  // exp(−40) = 4e-18
+constexpr double beside = 1e-9;             // of a part: points on its axis, beyond its ends, are this far off
 constexpr double longest_interval = 0.5;    // of u: four points are exact to 1e-10 there
 /// Points and weights of Gauss, on (-1, 1).
 constexpr std::array<std::array<double, 2>, 4> gauss = {{{-0.8611363115940526, 0.3478548451374538},
@@ -92,8 +93,9 @@ double LineField::sum(const Point& x, double decay, double least_distance) const
       sum += decay == 0 ? -std::log(distance) : std::cyl_bessel_k(0.0, distance * root);
       continue;
     }
-    const double a = std::asinh(-along / distance), b = std::asinh((part.length - along) / distance);
-    sum += part.weight / 2 * (decay == 0 ? b - a : integral(distance * root, a, b));
+    const double off = std::max(distance, beside * part.length);
+    const double a = std::asinh(-along / off), b = std::asinh((part.length - along) / off);
+    sum += part.weight / 2 * (decay == 0 ? b - a : integral(off * root, a, b));
   }
   return sum;
 }

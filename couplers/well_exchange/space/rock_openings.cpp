@@ -20,8 +20,9 @@ constexpr double at_a_side = 1e-9;  // in lengths of the line
 /// The pieces of one line: places from `first` to before `last`.
 class LineOfWell {
  public:
-  LineOfWell(const Mesh& mesh, const MatrixFluxes& fluxes, const std::vector<WellPlace>& places, int first, int last)
-      : mesh_(mesh), fluxes_(fluxes), places_(places), first_(first), last_(last) {
+  LineOfWell(const Mesh& mesh, const MatrixFluid& rock, const MatrixFluxes& fluxes,
+             const std::vector<WellPlace>& places, int first, int last)
+      : mesh_(mesh), rock_(rock), fluxes_(fluxes), places_(places), first_(first), last_(last) {
     for (int k = first; k < last; ++k) lengths_[piece(k).cell] += piece(k).length();
   }
 
@@ -51,10 +52,24 @@ class LineOfWell {
                      "own), use smaller cells, or give its 'index'");
   }
 
+  /// LineField has images for closed sides only.
+  void refuse_what_is_no_closed_side() const {
+    for (const auto& [cell, length] : lengths_)
+      for (const int node : mesh_.cell_nodes[cell])
+        for (const int face : mesh_.node_faces[node]) {
+          const int side = mesh_.face_side[face];
+          if (side != none && rock_.is_open(side))
+            refuse("its cells touch the open side '" + mesh_.side_names[side] + "'");
+          for (const int other : mesh_.face_cells[face])
+            if (other != none && !rock_.is_in_cell(other)) refuse("its cells touch rock without this flow");
+        }
+  }
+
   /// The sides that the cells of the line touch, for which LineField has images.
   std::vector<ClosedPlane> planes(const Tensor& mobility) const {
     const auto [planes, has_fracture] = touched_sides(mesh_, lengths_);
     if (has_fracture) refuse("its cells touch a fracture");
+    refuse_what_is_no_closed_side();
     for (const auto& [at, normal] : planes)
       if ((mobility * normal - normal.dot(mobility * normal) * normal).norm() > at_a_side)
         refuse("its cells touch the side at " + to_text(at) + ", to which the permeability is oblique");
@@ -128,6 +143,7 @@ class LineOfWell {
   }
 
   const Mesh& mesh_;
+  const MatrixFluid& rock_;
   const MatrixFluxes& fluxes_;
   const std::vector<WellPlace>& places_;
   int first_, last_;
@@ -136,7 +152,7 @@ class LineOfWell {
 
 }  // namespace
 
-std::vector<RockOpening> rock_openings(const Mesh& mesh, const MatrixFluid&, const MatrixFluxes& fluxes,
+std::vector<RockOpening> rock_openings(const Mesh& mesh, const MatrixFluid& rock, const MatrixFluxes& fluxes,
                                        const std::vector<WellPlace>& places, const std::vector<int>& cells) {
   std::vector<RockOpening> openings(places.size());
   const int count = static_cast<int>(places.size());
@@ -146,7 +162,7 @@ std::vector<RockOpening> rock_openings(const Mesh& mesh, const MatrixFluid&, con
     last = first + 1;
     if (!places[first].piece || places[first].index) continue;
     while (last < count && places[last].piece && places[last].name == places[first].name) ++last;
-    LineOfWell(mesh, fluxes, places, first, last).open(openings);
+    LineOfWell(mesh, rock, fluxes, places, first, last).open(openings);
   }
   return openings;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
@@ -41,7 +42,9 @@ std::vector<PieceInCell> line_in_cells(const Mesh& mesh, const std::vector<Point
                                                                             const Point& to, int at_to) {
     const double part = (to - from).norm();
     const bool is_in_one = at_from == at_to && part <= step * height(mesh, at_from);
-    if (!is_in_one && part > shortest * length) {
+    const double round_off =
+        4 * std::numeric_limits<double>::epsilon() * std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff());
+    if (!is_in_one && part > std::max(shortest * length, round_off)) {
       const Point middle = 0.5 * (from + to);
       const int at_middle = cell_at(middle);
       add(from, at_from, middle, at_middle);
