@@ -126,7 +126,7 @@ class WellsAlongLines(SpaceRuns):
         text = text[:start] + "    boundary: {" + ", ".join(f"{side}: {{pressure: {far}}}" for side in SIDES) + "}\n" + text[text.index("  wells:"):]
         error = self.rate(text) / exact - 1
         print(f"deviated: {error:.1e}")
-        self.assertLess(abs(error), 3e-3)  # what the expansion leaves out
+        self.assertLess(abs(error), 3e-3)  # of the mesh: 1e-3 measured, 4e-4 with cells of 12 m
 
     def test_fluid_with_weight_stays_at_rest(self):
         """A shut well through both layers and the fracture, and one without a rate: nothing flows, relative to what 65 kPa would drive."""
