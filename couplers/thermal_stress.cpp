@@ -59,7 +59,7 @@ class ThermalStress : public Coupler {
   }
   void begin_step(const StepTime&) override {}
   void note_input(Notes& notes) const override {
-    constexpr double noticeable = 1.01;
+    constexpr double noticeable = 1.01;  // measured stiffnesses are not known to 1 %
     const double ratio = rock_.unequal_expansion();
     if (ratio <= noticeable) return;
     notes.add(name() + " of anisotropic rock",

@@ -273,7 +273,7 @@ const Node* growth_within_step(const Node& steps) {
 }
 
 /// The step behind another one that changes the state at the end of the time step, or nullptr. Several `when` are
-/// allowed, since only one of them may hold at a time.
+/// allowed: the scene has to see that only one of them holds at a time.
 const char* what_follows(const std::vector<Node>& steps, std::size_t step) {
   for (std::size_t k = step + 1; k < steps.size(); ++k)
     for (const char* key : {"solve", "grow"})

@@ -51,7 +51,7 @@ class FieldScenes(SceneRuns):
         lost = np.sum(ROCK * pore.sizes * (pore["heat.temperature"] - START)) + WATER * np.sum(opening * lines.sizes * (lines["water.temperature"] - START))
         print(f"doublet: {warm[-1]:.2f} K, heat {lost:.4e} J of {carried:.4e} J, water {stored:.4e} m^3 of {compressed:.4e} m^3")
         self.assertLess(abs(lost / carried - 1), 1e-5)
-        # MPFA passes the first temperature by 0.2 K here.
+        # MPFA overshoots the initial temperature by 0.2 K here.
         self.assertTrue(INJECTED < lines["water.temperature"].min() and INJECTED < pore["heat.temperature"].min() and pore["heat.temperature"].max() < START + 0.5)
 
     def test_walls_of_a_tunnel_move_as_in_the_plane_behind_its_face(self):

@@ -3,8 +3,8 @@
 
 - Thiem: a well between two closed sides, in hexahedra, wedges and tetrahedra, off the middle of cells, in layers, in anisotropic rock and with a skin.
 - A deviated well that ends in the rock: the capacity of a thin cylinder (Jackson, Am. J. Phys. 68 (2000) 789).
-- Theis, and in a fracture the rate that a prescribed pressure has at the same radius.
-- Limits, weight, and twins: turned about no axis, mirrored, disturbed by 1e-9, on two processes."""
+- At a point of a fracture: the rate that a prescribed pressure has at the same radius.
+- Limits, weight, and twins: turned about the diagonal of space, mirrored, disturbed by 1e-10, on two processes."""
 
 import unittest
 
@@ -126,7 +126,7 @@ class WellsAlongLines(SpaceRuns):
         text = text[:start] + "    boundary: {" + ", ".join(f"{side}: {{pressure: {far}}}" for side in SIDES) + "}\n" + text[text.index("  wells:"):]
         error = self.rate(text) / exact - 1
         print(f"deviated: {error:.1e}")
-        self.assertLess(abs(error), 3e-3)  # what the expansion leaves out
+        self.assertLess(abs(error), 3e-3)  # of the mesh: 1e-3 measured, 4e-4 with cells of 12 m
 
     def test_a_well_that_ends_on_a_row_of_centres(self):
         """The next centres lie on its axis: as a well beside them by 1e-6 m."""
@@ -138,7 +138,7 @@ class WellsAlongLines(SpaceRuns):
         self.near(rates[0], rates[1], 1e-6)
 
     def test_fluid_with_weight_stays_at_rest(self):
-        """A shut well through both layers and the fracture, and one without a rate: nothing flows, by what 100 kPa would drive."""
+        """A shut well through both layers and the fracture, and one without a rate: nothing flows, relative to what 65 kPa would drive."""
         rest = self.run_text(FIELD.replace("RATE", "rate: 0 m^3/s").replace("PLANT", "rate: 0 m^3/s"))
         moved = self.run_text(FIELD.replace("RATE", "pressure: 20.3 MPa").replace("PLANT", "rate: 0 m^3/s"))
         for place in ("high", "deep"):

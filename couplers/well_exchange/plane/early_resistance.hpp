@@ -10,8 +10,7 @@
 namespace sprekk::couplers {
 
 /// `bore`: the radius of the bore hole in the metric of rho, m. None where a cell of the source touches the boundary or
-/// a fracture.
-/// Throws std::invalid_argument as WellPatch does.
+/// a fracture. Throws std::invalid_argument as WellPatch does.
 std::optional<EarlyResistance> early_resistance(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source,
                                                 const Tensor& mobility, double bore);
 

@@ -1,4 +1,4 @@
-// The pressure around a line in space that gives as much in each metre.
+// The pressure around a line source in space, of one strength in each metre.
 #pragma once
 
 #include <vector>
@@ -34,12 +34,12 @@ class LineField {
   double pressure_at_bore(const Point& from, const Point& to) const;
   double transformed_pressure_at_bore(const Point& from, const Point& to, double decay) const;
   double bore() const { return bore_; }          ///< m, in the metric
-  double mobility() const { return mobility_; }  ///< m
+  double mobility() const { return mobility_; }  ///< the mobility across the first part, in units of M
 
  private:
   struct Part {
     Point from, direction;  ///< in the metric, m; unit
-    double length, weight;  ///< m (0: without end); m of the first part over that of this one
+    double length, weight;  ///< m (0: without end); mobility across the first part over that across this one
   };
   void add(const Point& from, const Point& to, const Tensor& mobility);
   double sum(const Point& x, double decay, double least_distance) const;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_layers = 8;    // as in a plane, where a line between two sides has its index
 constexpr int most_cells = 4000;  // a tenth of a second for each; on tetrahedra two layers: the index to 1 %
-constexpr double same = 1e-9;     // of a direction, and of a distance from a plane in sizes of its faces
+constexpr double same = 1e-9;     // of a direction; a distance from a plane is compared with 1 m and its coordinates
 
 /// Whether a face lies in one of the planes.
 bool lies_in(const Mesh& mesh, int face, const std::vector<ClosedPlane>& planes) {

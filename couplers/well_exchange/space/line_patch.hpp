@@ -30,7 +30,8 @@ class LinePatch {
   LinePatch(const Mesh& mesh, const MatrixFluxes& fluxes, const std::map<int, double>& lengths, const LineField& field,
             const Tensor& mobility, const std::vector<ClosedPlane>& planes);
 
-  /// The pressures (see LineField) of all cells of the line, in their order, in steady flow; and their transforms.
+  /// The pressures (see LineField) of all cells of the line, in their order, in steady flow; and their
+  /// transforms.
   std::vector<double> pressures() const;
   std::vector<double> transformed_pressures(double decay) const;
 
@@ -43,7 +44,7 @@ class LinePatch {
 
   const LineField& field_;
   std::vector<double> lengths_;  ///< m, of the first cells
-  std::vector<double> volumes_;
+  std::vector<double> volumes_;  ///< m^3
   std::vector<Triplet> entries_;
   std::vector<Point> points_;     ///< centres of the cells around, m
   std::vector<Outside> outside_;  ///< pressures there times weights enter the balances of cells

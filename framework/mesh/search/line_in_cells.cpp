@@ -12,11 +12,11 @@
 namespace sprekk {
 namespace {
 
-constexpr double step = 0.25;         // in heights of cells: what is looked at along the line
-constexpr double shortest = 1e-12;    // of the line: where it enters a cell
+constexpr double step = 0.25;         // in heights of cells: the longest part whose ends alone are located
+constexpr double shortest = 1e-12;    // of the line: the error of the place where it enters a cell
 constexpr double negligible = 1e-10;  // of the line: pieces between cells that touch there
 
-/// The least distance between two opposite faces of a box with this measure.
+/// The height over the largest face, m, of a box; a third of that of a tetrahedron.
 double height(const Mesh& mesh, int cell) {
   double largest = 0;
   for (const int face : mesh.cell_faces[cell]) largest = std::max(largest, mesh.face_measure[face]);
