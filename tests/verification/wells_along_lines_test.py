@@ -84,7 +84,7 @@ class WellsAlongLines(SpaceRuns):
 
     def test_thiem(self):
         exact = 2 * np.pi * MOBILITY * PER_LOG * HEIGHT
-        for mesh, at, within in ((HEXAHEDRA, (0, 0), 3e-4), (WEDGES, (0.5, 0.3), 3e-4), (HEXAHEDRA, (2.3, -1.1), 3e-4), (TETRAHEDRA, (13.1, 7.7), 3e-4)):
+        for mesh, at, within in ((HEXAHEDRA, (0, 0), 3e-4), (WEDGES, (0.5, 0.3), 5e-5), (HEXAHEDRA, (2.3, -1.1), 3e-4), (TETRAHEDRA, (13.1, 7.7), 1.5e-4)):
             error = self.rate(thiem(mesh, at)) / exact - 1
             print(f"Thiem, {mesh}, {at}: {error:.1e}")
             self.assertLess(abs(error), within, (mesh, at))
@@ -132,7 +132,7 @@ class WellsAlongLines(SpaceRuns):
         """The next centres lie on its axis: as a well beside them by 1e-6 m."""
         rates = []
         for x in (0, 1e-6):
-            text = thiem("{kind: structured, cells: [21, 21, 15], shape: hexahedra}").replace("[0 m, 0 m, 0 m], [0 m, 0 m, 30 m]", f"[{x!r} m, 0 m, 11 m], [{x!r} m, 0 m, 30 m]")
+            text = thiem("{kind: structured, cells: [25, 25, 15], shape: hexahedra}").replace("[0 m, 0 m, 0 m], [0 m, 0 m, 30 m]", f"[{x!r} m, 0 m, 11 m], [{x!r} m, 0 m, 30 m]")
             rates.append(self.rate(text))
         self.assertGreater(rates[0], 0.5 * 2 * np.pi * MOBILITY * PER_LOG * 19)
         self.near(rates[0], rates[1], 1e-6)
@@ -152,10 +152,10 @@ class WellsAlongLines(SpaceRuns):
         results = self.run_text(WORKS)
         binds = results["wells.feed.binds_0_rate_1_pressure_2_shut[1]"]
         self.assertEqual(set(binds[1:]), {0, 1})
-        at_limit, at_rate = binds == 1, binds == 0
+        at_limit, at_rate = binds == 1, (binds == 0) & (results["time[s]"] > 2.5 * 3600)
         self.assertLess(np.abs(results["wells.feed.pressure[Pa]"][at_limit] / 22.5e6 - 1).max(), 1e-9)
         self.assertLess(results["wells.feed.rate[m^3/s]"][at_limit].max(), 3e-3)
-        self.assertLess(np.abs(results["wells.feed.rate[m^3/s]"][at_rate][1:] / 1e-3 - 1).max(), 1e-9)
+        self.assertLess(np.abs(results["wells.feed.rate[m^3/s]"][at_rate] / 1e-3 - 1).max(), 1e-9)
         self.assertLess(np.abs(results["wells.feed.high.rate[m^3/s]"] + results["wells.feed.deep.rate[m^3/s]"] - results["wells.feed.rate[m^3/s]"]).max(), 1e-12)
         self.assertLess(np.abs(results["fluid_balance_error[m^3]"]).max(), 1e-9 * results["fluid_injected[m^3]"][-1])
 
@@ -176,7 +176,7 @@ class WellsAlongLines(SpaceRuns):
             tensor = {(0, 0): 3, (1, 1): 2, (2, 2): 1, (0, 1): 0.4 * sign, (1, 2): -0.3, (0, 2): 0.5 * sign}
             place = [order.index(axis) for axis in range(3)]  # of each axis of the scene
             axes = {"".join(sorted((names[place[i]], names[place[j]]))): value for (i, j), value in tensor.items()}
-            axes = {("xz" if name == "xz" else name): f"{value}e-13 m^2" for name, value in axes.items()}
+            axes = {name: f"{value}e-13 m^2" for name, value in axes.items()}
             text = thiem(f"{{kind: structured, cells: {[cells[axis] for axis in order]}, shape: hexahedra}}")
             box = ", ".join(f"{name}: [-{sizes[axis]} m, {sizes[axis]} m]" for name, axis in zip(names, order))
             text = text.replace("{x: [-100 m, 100 m], y: [-100 m, 100 m], z: [0 m, 30 m]}", f"{{{box}}}")

@@ -3,8 +3,6 @@
 
 #include <functional>
 #include <map>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "components/capabilities/fluid_fluxes.hpp"
