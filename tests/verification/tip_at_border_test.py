@@ -91,13 +91,12 @@ class TipAtBorder(SceneRuns):
         steps = [(b[TIP + "x"] - a[TIP + "x"], b[TIP + "y"] - a[TIP + "y"]) for a, b in zip(rows, rows[1:]) if b[TIP + "length"] > a[TIP + "length"] > 0]
         angles = [abs(math.degrees(math.atan2(-y, x) + math.atan(SLOPE))) for x, y in steps]  # with the border, across 90
         self.assertGreater(angles[0], 70)
-        self.assertLess(angles[-1], 35)
-        self.assertEqual(angles[-5:], sorted(angles[-5:], reverse=True))
+        self.assertLess(max(angles[-3:]), 15)
 
-    def expect_same(self, other, tolerance, hours=(1, 2, 3, 4), whole=None):
+    def expect_same(self, other, tolerance, hours=(1, 2, 3, 4)):
         """At whole hours: how many steps the search takes next to the border depends on the last digits."""
         for hour in hours:
-            one, two = (next(row for row in run.rows if abs(row["time"] - 3600 * hour) < 1) for run in (whole or self.whole, other))
+            one, two = (next(row for row in run.rows if abs(row["time"] - 3600 * hour) < 1) for run in (self.whole, other))
             self.assertAlmostEqual(two[TIP + "length"] / one[TIP + "length"], 1, delta=tolerance, msg=hour)
 
     def test_disturbed(self):
@@ -105,12 +104,11 @@ class TipAtBorder(SceneRuns):
 
     def test_turned_and_mirrored(self):
         # The square of the fine level does not turn with the scene: its load has the error of the coarse level, 5 cells on the fracture. In
-        # the end the border says how far the tip comes. Steps of an hour alone move that by 0.7 %.
-        whole = self.run_scene(self.scene, "time.step=0.5 h")
+        # the end the border says how far the tip comes.
         for mirror in (False, True):
-            run = self.run_scene(self.turned(self.scene, 37, mirror=mirror), "time.step=0.5 h")
+            run = self.run_scene(self.turned(self.scene, 37, mirror=mirror))
             self.expect_growth(run)
-            self.expect_same(run, 0.003, hours=(4,), whole=whole)
+            self.expect_same(run, 0.003, hours=(4,))
 
     @on_two_processes
     def test_on_two_processes(self):
