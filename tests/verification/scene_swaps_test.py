@@ -21,12 +21,14 @@ ROLES = {
     "contact": [("coulomb", {}), ("augmented_lagrangian", {}), ("penalty", {})],
     "fine_fracture": [("quarter_point", {}), ("boundary_element", {}), ("jump_fit", {})],
 }
-def uses_peaceman(text):
-    return "type: well_exchange" in text and "radius:" in text and "index:" not in text
-
-
 def in_space(text):
     return re.search(r"^  box:.*\bz:", text, re.M) is not None
+
+
+def uses_peaceman(text):
+    """In space wells in the rock are lines; those at points of fractures have no index in the rock."""
+    has_rock = not in_space(text) or re.search(r"^      \w+: \{points:", text, re.M)
+    return has_rock and "type: well_exchange" in text and "radius:" in text and "index:" not in text
 
 
 # Swaps without a meaning: for each type, pieces of reasons, and in which scenes.
