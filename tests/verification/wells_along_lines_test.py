@@ -189,6 +189,15 @@ class WellsAlongLines(SpaceRuns):
         for order, mirror in (((1, 2, 0), False), ((0, 1, 2), True), ((2, 0, 1), True)):
             self.near(scene(order, mirror), rate, 1e-9)
 
+    def test_a_restart_keeps_the_bits_and_substeps_are_steps(self):
+        whole, half = self.run_text(WORKS), self.run_text(WORKS, "time.end=2 h")
+        rest = self.run_scene(self.write(WORKS), restart=half.folder)
+        inside = self.run_text(WORKS, "schedule=[{subcycle: {count: 2, steps: [{solve: [pore, conduit, wells]}]}}]")
+        shorter = self.run_text(WORKS, "time.step=0.5 h")
+        for column in COLUMNS:
+            self.assertEqual(rest[column][-1], whole[column][-1], column)
+            self.near(inside[column][-1], shorter[column][-1], 1e-9)
+
     def test_a_point_of_a_fracture_has_the_rate_of_a_prescribed_pressure(self):
         text = FIELD.replace("RATE", "pressure: 21 MPa").replace("          high: {points: [[29 m, 47 m, -24 m], [31 m, 49 m, -41 m], [34 m, 48 m, -70 m]]}\n", "").replace("PLANT", "rate: 0 m^3/s")
         text = text.replace("  gravity: [0, 0, -9.81 m/s^2]\n", "").replace("-9810*z/m", "").replace("- 9810*z/m", "")
