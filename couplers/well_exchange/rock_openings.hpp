@@ -1,6 +1,7 @@
 // How wells are open to the rock: the cells around, and the resistance of the rock between.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,15 @@ double mobility_across(const WellPlace& place, const Tensor& mobility);
 /// m, along which a place is open to the rock; 1 in a plane.
 double open_length(const WellPlace& place);
 
-/// Throws InputError for an index that is not positive: ln(r_e/r_w) + skin, `around`: r_e, m, `bore`: r_w, m.
-void require_positive_index(const WellPlace& place, double log_of_radii, double around, double bore);
+/// A negative skin, of rock or a fracture that conducts better around a well, counts as a wider bore hole, m; a
+/// positive one is added to ln(r_e/r_w).
+double widened_radius(const WellPlace& place);
+double skin_beside_radius(const WellPlace& place);
+
+/// Throws InputError for an index that is not positive: ln(r_e/r_w) + skin, `around`: r_e, m.
+void require_positive_index(const WellPlace& place, double log_of_radii, double around);
+
+/// Throws InputError for a flow whose discrete equations PatchOfCells does not take, for this reason.
+[[noreturn]] void refuse_flow(const WellPlace& place, const std::string& why);
 
 }  // namespace sprekk::couplers

@@ -270,8 +270,8 @@ class WellExchange : public Coupler, public FollowsMesh {
     if (!bores_)
       throw InputError(place.origin, "the index of well '" + place.name + "' is not known",
                        "this flow in fractures does not tell what a bore hole feels", "give its 'index'");
-    const double bore = place.radius * std::exp(-std::min(place.skin, 0.0));  // as in rock
-    log_of_radii_[k] = bores_->log_of_radii(cells_[k], place.at, bore, place.origin) + std::max(place.skin, 0.0);
+    log_of_radii_[k] = bores_->log_of_radii(cells_[k], place.at, widened_radius(place), place.origin);
+    log_of_radii_[k] += skin_beside_radius(place);
   }
 
   int fracture_cell(const WellPlace& place, const CouplerContext& context) const {

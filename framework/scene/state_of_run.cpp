@@ -90,6 +90,19 @@ void require_same_mesh(const OtherRun& run, const Model& model) {
 
 bool is_initial(const std::string& path) { return path.find(".initial_") != std::string::npos; }
 
+/// The definition of each variable of a `history`, by its path.
+Parameters memories_of(const Parameters& parameters) {
+  const std::string section = ".history.";
+  Parameters memories;
+  for (const auto& [path, value] : parameters) {
+    const std::size_t at = path.find(section);
+    if (at == std::string::npos) continue;
+    const std::size_t end = path.find('.', at + section.size());
+    memories[path.substr(0, end)] += " " + path.substr(std::min(end, path.size() - 1) + 1) + ": " + value;
+  }
+  return memories;
+}
+
 /// Refuses components of other types, and other values of parameters from which changes are counted.
 void require_same_parameters(const OtherRun& run, const Model& model) {
   Parameters here;
@@ -108,30 +121,12 @@ void require_same_parameters(const OtherRun& run, const Model& model) {
                 "it is " + before->second + " there and " + value + " here, and the state is counted from it",
                 "give it the same value: the fields themselves come from the other run");
   }
-}
-
-/// The definition of each variable of a `history`, by its path.
-Parameters memories_of(const Parameters& parameters) {
-  const std::string section = ".history.";
-  Parameters memories;
-  for (const auto& [path, value] : parameters) {
-    const std::size_t at = path.find(section);
-    if (at == std::string::npos) continue;
-    const std::size_t end = path.find('.', at + section.size());
-    memories[path.substr(0, end)] += " " + path.substr(std::min(end, path.size() - 1) + 1) + ": " + value;
-  }
-  return memories;
-}
-
-/// What is remembered under one name goes on only as the same.
-void require_same_memories(const OtherRun& run, const Model& model) {
-  Parameters resolved;
-  for (const Scene::Resolved& parameter : model.scene().resolved) resolved[parameter.path] = parameter.value;
+  // What is remembered under one name goes on only as the same.
   const Parameters there = memories_of(run.parameters);
-  for (const auto& [path, here] : memories_of(resolved))
-    if (const auto before = there.find(path); before != there.end() && before->second != here)
+  for (const auto& [path, definition] : memories_of(here))
+    if (const auto before = there.find(path); before != there.end() && before->second != definition)
       throw unfit(model, "'" + path + "' is not that of the run in '" + run.folder.string() + "'",
-                  "it is" + before->second + " there and" + here + " here, and its values come from there",
+                  "it is" + before->second + " there and" + definition + " here, and its values come from there",
                   "give it the same definition, or another name");
 }
 
@@ -203,7 +198,6 @@ void take_fields(const OtherRun& run, Model& model) {
 void take_state_of_run(const std::string& from, Model& model) {
   const OtherRun run = read_run(from, model);
   require_same_parameters(run, model);
-  require_same_memories(run, model);
   require_same_mesh(run, model);
   require_couplers(run, model);
   take_fields(run, model);

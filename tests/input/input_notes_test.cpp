@@ -27,13 +27,13 @@ void PrintTo(const Input& input, std::ostream* text) {
 const std::string all_but_aperture =
     "{type: biot, between: [pore, rock]}, {type: wall_exchange, between: [pore, conduit]}";
 
-Settings with_tips(const std::string& between) {
+Settings with_tips(const std::string& between, const std::string& grow = ", {grow: tips, settle: [rock, contact]}") {
   return {"components.tips={type: fine_fracture/quarter_point, size: 0.4 m}",
           "couplers=[" + all_but_aperture +
               ", {type: wall_traction, between: [rock, contact, conduit]}, {type: aperture, between: [contact, "
               "conduit]}, {type: two_level, between: " +
               between + "}]",
-          "schedule=[{solve: [pore, rock, conduit, contact]}, {grow: tips, settle: [rock, contact]}]"};
+          "schedule=[{solve: [pore, rock, conduit, contact]}" + grow + "]"};
 }
 
 /// Heat in rock and fracture, which fluid carries between these components.
@@ -272,6 +272,18 @@ INSTANTIATE_TEST_SUITE_P(
         Input{"fractured.yaml", with_heat("[pore, conduit, heat, water]", "0.1 mm"), ""},
         Input{"fractured.yaml", with_tips("[rock, tips]"), "walls that grow on the fine level carry no fluid pressure"},
         Input{"fractured.yaml", with_tips("[rock, tips, conduit]"), ""},
+        Input{"fractured.yaml", with_tips("[rock, tips, conduit]", ""), "no step looks at the fractures of tips"},
+        // Strains under an equal pressure: C^-1 (1, 1, 0) = (7, 41, 0)/431 GPa.
+        Input{"rock.yaml",
+              {"components.rock.young_modulus=null", "components.rock.poisson_ratio=null",
+               "components.rock.bulk_modulus=10 GPa",
+               "components.rock.stiffness={xxxx: 44 GPa, yyyy: 10 GPa, xxyy: 3 GPa, xyxy: 10 GPa, xxxy: 0 GPa, yyxy: 0 "
+               "GPa}",
+               "components.heat={type: matrix_heat/tpfa, conductivity: 2 W/(m*K), heat_capacity: 2e6 J/(m^3*K), "
+               "initial_temperature: 300 K, boundary: {left: {temperature: 310 K}}}",
+               "couplers=[{type: thermal_stress, between: [heat, rock], expansion: 1e-5 1/K}]",
+               "schedule=[{solve: [rock, heat]}]"},
+              "free rock expands 5.86 times as much along one axis"},
         Input{"fractured.yaml",
               {"components.conduit.transmissivity_value=1e-12 m^3"},
               "'transmissivity_value' of 'conduit' has no effect"},

@@ -223,6 +223,19 @@ output: {fields: false, probes: {extreme: {of: pore.extreme, take: mean}}}
                 run = self.run_scene(self.write(put(scene, RECALL=recall, STEP=step)))
                 np.testing.assert_allclose(run["extreme"], 4e6, rtol=1e-12)
 
+    def test_extremes_in_cells_that_have_grown_begin_with_the_state_there(self):
+        """The least pressure of new cells is one that they have had, and not that with which fractures begin; that of old cells is."""
+        for update in ("within_step", "after_step"):
+            run = self.run_scene(ROOT / "configs/paper/wing_cracks.yaml", "time.end=3h", f"schedule.1.update={update}", "components.conduit.initial_pressure=5 MPa",
+                                 'components.conduit.history={least: {smallest: "p"}}', "components.conduit.transmissivity=a^3/12*(1 + 0*least/Pa)",
+                                 *(f"output.probes.{probe}={{of: conduit.{field}, take: {take}}}" for probe, field, take in (("old", "least", "smallest"), ("new", "least", "largest"), ("p", "pressure", "smallest"))))
+            np.testing.assert_allclose(run["old"], 5e6, rtol=1e-12)
+            grown = run["new"] > 5.1e6
+            self.assertGreater(grown.sum(), 2, update)
+            # The pressure hardly differs along the fracture; growth after steps lowers it by 3 %.
+            self.assertGreater(run["new"][-1], 0.95 * run["p"][np.argmax(grown) - 1], update)
+            self.assertLess(run["new"][-1], run["p"][-1], update)
+
     def test_another_memory_of_the_same_name_is_refused(self):
         first = self.pressed(HYSTERETIC, "time.end=300 s")
         changed = self.call("check", self.write(put(PRESSED, **HYSTERETIC).replace("largest:", "smallest:")), f"start.from={first.folder}")

@@ -226,6 +226,13 @@ class LimitedAdvection(SpaceRuns):
         self.assertLess(errors[1], 6e-4)
         self.assertLess(errors[1], 0.5 * errors[0])
 
+    @on_two_processes
+    def test_a_settled_state_on_two_processes_and_disturbed(self):
+        scene = limited(scenes.column(20, 20)) + "start: {settle: [pore, salt]}\noutput: {probes: {c: {of: salt.concentration, take: mean}}}\n"
+        one = self.run_text(scene)["c"][-1]
+        for other in (self.run_text(scene, processes=2), self.run_text(scene, "components.pore.boundary.left.flux=-1.000000001e-6 m/s")):
+            self.assertLess(abs(other["c"][-1] / one - 1), 5e-9)
+
     def test_a_restart_keeps_the_bits(self):
         for dimension in (2, 3):
             text = limited(scenes.flowing(dimension, **scenes.UNEVEN, spread=scenes.SPREAD))

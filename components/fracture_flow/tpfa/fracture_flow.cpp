@@ -46,6 +46,7 @@ FractureFlow::FractureFlow(const ComponentContext& context, const Options& optio
     throw InputError(context.origin, "component '" + context.name + "' has nothing to do", "the scene has no fractures",
                      "add fractures to `geometry:` or remove the component");
   check_names();
+  find_prescribed_cells();
   options_.crossings.check_names(mesh_);
   crossing_fills_ = options_.crossings.fills(mesh_);
   if (options_.cavitation)

@@ -309,6 +309,7 @@ class FractureFlow : public Component,
   void assemble_prescribed_points(Assembly& assembly, const StepTime& step) const;
   std::vector<const Data*> properties() const;
   void make_links(const StepTime& step);
+  void find_prescribed_cells();
   void prescribe(const StepTime& step);
 
   const Mesh& mesh_;

@@ -116,12 +116,12 @@ std::vector<std::pair<int, double>> FractureFlow::shares_at(int cell, const Poin
   return shares;
 }
 
-/// In space, wherever the fracture conducts. Before the first step no cell has a prescribed pressure.
+/// In space, wherever the fracture conducts.
 std::vector<std::pair<int, double>> FractureFlow::shares_of_conductors(int cell, const Point& at) const {
   std::vector<std::pair<int, double>> shares = along_fracture(mesh_, cell, at);
   const bool is_alone = std::ranges::any_of(shares, [&](const auto& share) {
     const bool may_be_empty = options_.cavitation && share.second < 0;  // nothing can be taken from there
-    return may_be_empty || (!is_prescribed_.empty() && is_prescribed_[share.first] != 0);
+    return may_be_empty || is_prescribed_[share.first] != 0;
   });
   return is_alone ? std::vector<std::pair<int, double>>{{cell, 1.0}} : shares;
 }

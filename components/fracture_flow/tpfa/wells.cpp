@@ -108,12 +108,18 @@ std::vector<std::pair<int, double>> FractureFlow::shares_by_length(const Fractur
   return shares;
 }
 
+void FractureFlow::find_prescribed_cells() {
+  is_prescribed_.assign(mesh_.fracture_cell_count(), 0);
+  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_prescribed_[i] = !is_in_fracture_cell(i);
+  for (const auto& [name, given] : options_.prescribed)
+    if (!given.where.at)
+      for (const int cell : cells_of(given.where)) is_prescribed_[cell] = 1;
+}
+
 void FractureFlow::prescribe(const StepTime& step) {
   prescribed_.clear();
   let_in_.clear();
   step_length_ = step.dt;
-  is_prescribed_.assign(mesh_.fracture_cell_count(), 0);
-  for (int i = 0; i < mesh_.fracture_cell_count(); ++i) is_prescribed_[i] = !is_in_fracture_cell(i);
   prescribed_points_.clear();
   for (const auto& [name, given] : options_.prescribed)
     for (const int cell : cells_of(given.where)) {
@@ -125,7 +131,6 @@ void FractureFlow::prescribe(const StepTime& step) {
         continue;
       }
       const FractureCell& at = mesh_.fracture_cells[cell];
-      is_prescribed_[cell] = 1;
       const double storage = at.measure * initial_aperture_[cell] * compressibility_[cell];
       prescribed_.push_back({cell, pressure, storage > 0 ? storage : at.measure});
     }

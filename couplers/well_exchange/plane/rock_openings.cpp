@@ -2,7 +2,6 @@
 #include "couplers/well_exchange/rock_openings.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -19,8 +18,7 @@ std::optional<EarlyResistance> resistance_of(const Mesh& mesh, const MatrixFluxe
   try {
     return early_resistance(mesh, fluxes, source, mobility, bore);
   } catch (const std::invalid_argument& error) {
-    throw InputError(place.origin, "the index of well '" + place.name + "' is not known for this flow", error.what(),
-                     "use matrix_flow/mpfa or matrix_flow/tpfa, or give its 'index'");
+    refuse_flow(place, error.what());
   }
 }
 
@@ -37,16 +35,15 @@ RockOpening rock_opening(const Mesh& mesh, const MatrixFluid& rock, const Matrix
            (is_inner.empty() || is_inner[cell]);
   });
   if (place.index) return {source.shares, {}};
-  const double bore = radius_of_bore_hole(place.radius, mobility);
-  const double effective = bore * std::exp(-std::min(place.skin, 0.0));  // rock that conducts well widens the bore hole
-  const std::optional<EarlyResistance> early = resistance_of(mesh, fluxes, place, source, mobility, effective);
+  const double bore = radius_of_bore_hole(widened_radius(place), mobility);
+  const std::optional<EarlyResistance> early = resistance_of(mesh, fluxes, place, source, mobility, bore);
   if (!early)
     throw InputError(place.origin, "the index of well '" + place.name + "' cannot be found",
                      "its cell at " + to_text(mesh.cell_center[home]) + " touches a side or a fracture",
                      "use smaller cells there, give its 'index', or name the 'fracture' in which it is open");
   RockOpening opening{source.shares, *early};
-  opening.early.log_of_radii += std::max(place.skin, 0.0);
-  require_positive_index(place, opening.early.log_of_radii, effective * std::exp(early->log_of_radii), bore);
+  opening.early.log_of_radii += skin_beside_radius(place);
+  require_positive_index(place, opening.early.log_of_radii, bore * std::exp(early->log_of_radii));
   return opening;
 }
 

@@ -2,9 +2,9 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <set>
-#include <stdexcept>
 
 #include "framework/invariants.hpp"
 
@@ -59,54 +59,25 @@ std::vector<char> inner_cells(const Mesh& mesh) {
 }
 
 WellPatch::WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source, const Tensor& mobility)
-    : size_(std::sqrt(mobility.determinant())) {
+    : size_(std::sqrt(mobility.determinant())), at_(source.at), inverse_(size_ * mobility.inverse()) {
   SPREKK_EXPECT(size_ > 0, size_);
   const std::set<int> cells = patch(mesh, source);
   if (cells.empty()) return;
-  std::vector<char> nodes(mesh.node_count(), 0);
-  std::vector<int> place(mesh.cell_count(), none);
-  for (const int cell : cells) {
-    place[cell] = static_cast<int>(cells_.size());
-    cells_.push_back(cell);
-    areas_.push_back(mesh.cell_measure[cell]);
-    for (const int node : mesh.cell_nodes[cell]) nodes[node] = 1;
-  }
-  for (const auto& [cell, share] : source.shares) source_.emplace_back(place[cell], share);
-  const FluxOperators operators = fluxes.fluxes_around(nodes, mobility);
-  if (operators.faces.flux.rows() > 0) throw std::invalid_argument("its discretization has unknowns on faces");
-  if (operators.limited[0].cell.rows() > 0) throw std::invalid_argument("its fluxes are not linear in the pressures");
-
-  const Tensor inverse = size_ * mobility.inverse();
-  for (const int cell : cells)
-    for (const int face : mesh.cell_faces[cell]) {
-      const double sign = mesh.face_cells[face][0] == cell ? 1 : -1;
-      for (SparseMatrix::InnerIterator entry(operators.flux_cell, face); entry; ++entry) {
-        const int other = static_cast<int>(entry.col());
-        if (place[other] != none) {
-          entries_.emplace_back(place[cell], place[other], sign * entry.value());
-        } else if (entry.value() != 0) {
-          const Point x = mesh.cell_center[other] - source.at;
-          outside_.push_back({place[cell], sign * entry.value(), std::sqrt(x.dot(inverse * x))});
-        }
-      }
-    }
+  cells_.emplace(mesh, fluxes, std::vector<int>(cells.begin(), cells.end()), mobility);
+  for (const auto& [cell, share] : source.shares)
+    source_.emplace_back(static_cast<int>(std::distance(cells.begin(), cells.find(cell))), share);
 }
 
 /// The balances sqrt(det M) A decay p + outflow(p) = 2 pi sqrt(det M) share at the source and 0 elsewhere.
 template <class Source>
 double WellPatch::pressure(double decay, const Source& source) const {
   SPREKK_EXPECT(!is_empty());
-  const int count = static_cast<int>(cells_.size());
-  Vector right = Vector::Zero(count);
-  for (const auto& [cell, share] : source_) right[cell] += share * (2 * std::numbers::pi * size_);
-  for (const Outside& each : outside_) right[each.row] -= each.weight * source(each.distance);
-  std::vector<Triplet> entries = entries_;
-  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, size_ * areas_[i] * decay);
-  Eigen::SparseMatrix<double> system(count, count);
-  system.setFromTriplets(entries.begin(), entries.end());
-  const bool is_regular = solver_.factorize(system);
-  SPREKK_ASSERT(is_regular, count);
-  const Vector pressure = solver_.solve(right);
+  Vector supply = Vector::Zero(static_cast<int>(cells_->cells().size()));
+  for (const auto& [cell, share] : source_) supply[cell] += share * (2 * std::numbers::pi * size_);
+  const Vector pressure = cells_->solve(size_ * decay, supply, [&](const Point& x) {
+    const Point away = x - at_;
+    return source(std::sqrt(away.dot(inverse_ * away)));
+  });
   double at_point = 0;
   for (const auto& [cell, share] : source_) at_point += share * pressure[cell];
   return at_point;

@@ -1,11 +1,12 @@
 // The cells around a well, and the discrete equations of the flow in them.
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
-#include "components/capabilities/fluid_fluxes.hpp"
+#include "couplers/well_exchange/patch_of_cells.hpp"
 #include "framework/discretization/plane/point_source.hpp"
-#include "framework/linear/direct/sparse_lu.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {
@@ -18,11 +19,11 @@ std::vector<char> inner_cells(const Mesh& mesh);
 /// sqrt(det M)/q.
 class WellPatch {
  public:
-  /// Empty where one of the source's cells touches the boundary or a fracture. Throws std::invalid_argument, with the
-  /// reason, for a discretization with unknowns on faces, and for one with nonlinear fluxes.
+  /// Empty where one of the source's cells touches the boundary or a fracture. Throws std::invalid_argument as
+  /// PatchOfCells does.
   WellPatch(const Mesh& mesh, const MatrixFluxes& fluxes, const PointSource& source, const Tensor& mobility);
 
-  bool is_empty() const { return cells_.empty(); }
+  bool is_empty() const { return !cells_; }
   /// The pressure at the point of a constant source in steady flow, with the pressures −ln rho of a line source in the
   /// cells around the patch.
   double steady_pressure() const;
@@ -32,22 +33,14 @@ class WellPatch {
   double transformed_pressure(double decay) const;
 
  private:
-  /// A cell outside of the patch, whose pressure times `weight` enters the balance of a cell of the patch.
-  struct Outside {
-    int row;
-    double weight, distance;
-  };
   template <class Source>
   double pressure(double decay, const Source& source) const;
 
-  std::vector<int> cells_;
-  std::vector<double> areas_;
-  std::vector<Triplet> entries_;  ///< entries of the steady equations, m^2/(Pa s)
-  std::vector<Outside> outside_;
-  std::vector<std::pair<int, double>> source_;  ///< indices in cells_ and shares
+  std::optional<PatchOfCells> cells_;
+  std::vector<std::pair<int, double>> source_;  ///< indices in the patch, and shares
   double size_;                                 ///< sqrt(det M)
-  /// Keeps the ordering of its first matrix.
-  mutable SparseLu solver_;
+  Point at_;
+  Tensor inverse_;  ///< sqrt(det M) M^-1
 };
 
 }  // namespace sprekk::couplers

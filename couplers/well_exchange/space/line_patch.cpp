@@ -1,24 +1,28 @@
 #include "couplers/well_exchange/space/line_patch.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <set>
 #include <stdexcept>
 
 #include "framework/invariants.hpp"
+#include "framework/round_off.hpp"
 
 namespace sprekk::couplers {
 namespace {
 
 constexpr int most_layers = 8;    // as in a plane, where a line between two sides has its index
 constexpr int most_cells = 4000;  // a tenth of a second for each; on tetrahedra two layers: the index to 1 %
-constexpr double same = 1e-9;     // of a direction; a distance from a plane is compared with 1 m and its coordinates
+constexpr double same = 1e-9;     // of a direction, and of lengths of a face
 
 /// Whether a face lies in one of the planes.
 bool lies_in(const Mesh& mesh, int face, const std::vector<ClosedPlane>& planes) {
   for (const auto& [at, normal] : planes) {
     const double away = std::abs(normal.dot(mesh.face_center[face] - at));
-    if (std::abs(normal.dot(mesh.face_normal[face])) > 1 - same && away < same * (1 + at.norm())) return true;
+    const double size = std::sqrt(mesh.face_measure[face]), coordinates = at.cwiseAbs().maxCoeff();
+    if (normal.cross(mesh.face_normal[face]).norm() < same && away < same * size + rounding::of_sum * coordinates)
+      return true;
   }
   return false;
 }
@@ -71,53 +75,17 @@ TouchedSides touched_sides(const Mesh& mesh, const std::map<int, double>& cells)
 
 LinePatch::LinePatch(const Mesh& mesh, const MatrixFluxes& fluxes, const std::map<int, double>& lengths,
                      const LineField& field, const Tensor& mobility, const std::vector<ClosedPlane>& planes)
-    : field_(field) {
-  const std::vector<int> cells = patch(mesh, lengths, planes);
+    : field_(field), cells_(mesh, fluxes, patch(mesh, lengths, planes), mobility) {
   for (const auto& [cell, length] : lengths) lengths_.push_back(length);
-  std::vector<char> nodes(mesh.node_count(), 0);
-  std::vector<int> place(mesh.cell_count(), none);
-  for (const int cell : cells) {
-    place[cell] = static_cast<int>(volumes_.size());
-    volumes_.push_back(mesh.cell_measure[cell]);
-    for (const int node : mesh.cell_nodes[cell]) nodes[node] = 1;
-  }
-  const FluxOperators operators = fluxes.fluxes_around(nodes, mobility);
-  if (operators.faces.flux.rows() > 0) throw std::invalid_argument("its discretization has unknowns on faces");
-  if (operators.limited[0].cell.rows() > 0) throw std::invalid_argument("its fluxes are not linear in the pressures");
-  std::map<int, int> points;
-  for (const int cell : cells)
-    for (const int face : mesh.cell_faces[cell]) {
-      const double sign = mesh.face_cells[face][0] == cell ? 1 : -1;
-      for (SparseMatrix::InnerIterator entry(operators.flux_cell, face); entry; ++entry) {
-        const int other = static_cast<int>(entry.col());
-        if (place[other] != none) {
-          entries_.emplace_back(place[cell], place[other], sign * entry.value());
-        } else if (entry.value() != 0) {
-          const auto [point, is_new] = points.try_emplace(other, static_cast<int>(points_.size()));
-          if (is_new) points_.push_back(mesh.cell_center[other]);
-          outside_.push_back({place[cell], point->second, sign * entry.value()});
-        }
-      }
-    }
-  if (outside_.empty()) throw std::invalid_argument("there is no rock around its cells");
+  if (cells_.is_alone()) throw std::invalid_argument("there is no rock around its cells");
 }
 
 /// The balances m V decay p + outflow(p) = 2 pi m length in the cells of the line and 0 elsewhere.
-std::vector<double> LinePatch::solve(double decay, const std::function<double(const Point&)>& outside) const {
-  const int count = static_cast<int>(volumes_.size());
-  Vector right = Vector::Zero(count);
+std::vector<double> LinePatch::solve(double decay, const std::function<double(const Point&)>& around) const {
+  Vector supply = Vector::Zero(static_cast<int>(cells_.cells().size()));
   for (std::size_t i = 0; i < lengths_.size(); ++i)
-    right[static_cast<int>(i)] = 2 * std::numbers::pi * field_.mobility() * lengths_[i];
-  std::vector<double> around;
-  for (const Point& point : points_) around.push_back(outside(point));
-  for (const Outside& each : outside_) right[each.row] -= each.weight * around[each.point];
-  std::vector<Triplet> entries = entries_;
-  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, field_.mobility() * volumes_[i] * decay);
-  Eigen::SparseMatrix<double> system(count, count);
-  system.setFromTriplets(entries.begin(), entries.end());
-  const bool is_regular = solver_.factorize(system);
-  SPREKK_ASSERT(is_regular, count);
-  const Vector pressure = solver_.solve(right);
+    supply[static_cast<int>(i)] = 2 * std::numbers::pi * field_.mobility() * lengths_[i];
+  const Vector pressure = cells_.solve(field_.mobility() * decay, supply, around);
   return {pressure.data(), pressure.data() + lengths_.size()};
 }
 

@@ -5,9 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "components/capabilities/fluid_fluxes.hpp"
+#include "couplers/well_exchange/patch_of_cells.hpp"
 #include "couplers/well_exchange/space/line_field.hpp"
-#include "framework/linear/direct/sparse_lu.hpp"
 #include "framework/mesh/mesh.hpp"
 
 namespace sprekk::couplers {
@@ -23,8 +22,8 @@ TouchedSides touched_sides(const Mesh& mesh, const std::map<int, double>& cells)
 /// the pressure of the line. It touches no fracture, and no side but the planes of the line.
 class LinePatch {
  public:
-  /// `lengths`: of the line in its cells, m. Throws std::invalid_argument, with the reason, for a discretization with
-  /// unknowns on faces, and where there is no rock around.
+  /// `lengths`: of the line in its cells, m. `field` must outlive the patch. Throws std::invalid_argument as
+  /// PatchOfCells does, and where there is no rock around.
   LinePatch(const Mesh& mesh, const MatrixFluxes& fluxes, const std::map<int, double>& lengths, const LineField& field,
             const Tensor& mobility, const std::vector<ClosedPlane>& planes);
 
@@ -34,19 +33,11 @@ class LinePatch {
   std::vector<double> transformed_pressures(double decay) const;
 
  private:
-  struct Outside {
-    int row, point;
-    double weight;
-  };
-  std::vector<double> solve(double decay, const std::function<double(const Point&)>& outside) const;
+  std::vector<double> solve(double decay, const std::function<double(const Point&)>& around) const;
 
   const LineField& field_;
   std::vector<double> lengths_;  ///< m, of the first cells
-  std::vector<double> volumes_;  ///< m^3
-  std::vector<Triplet> entries_;
-  std::vector<Point> points_;     ///< centres of the cells around, m
-  std::vector<Outside> outside_;  ///< pressures there times weights enter the balances of cells
-  mutable SparseLu solver_;       ///< keeps the ordering of its first matrix
+  PatchOfCells cells_;
 };
 
 }  // namespace sprekk::couplers

@@ -1,6 +1,7 @@
 // In space a well is a line through cells, each of which takes what enters along its piece of the line.
 #include "couplers/well_exchange/rock_openings.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,8 @@
 namespace sprekk::couplers {
 namespace {
 
-constexpr double alike = 1e-12;     // of mobilities but for a factor, and of directions
+constexpr double alike = 1e-12;     // of normalized mobilities
+constexpr double oblique = 1e-9;    // sine of the angle with a normal
 constexpr double at_a_side = 1e-9;  // in lengths of the line
 
 /// The pieces of one line: places from `first` to before `last`.
@@ -29,10 +31,9 @@ class LineOfWell {
   void open(std::vector<RockOpening>& openings) const {
     std::vector<Tensor> done;
     for (int k = first_; k < last_; ++k) {
-      const Tensor mobility = direction_of(k);
-      if (std::ranges::any_of(done, [&](const Tensor& other) { return (other - mobility).norm() < alike; })) continue;
-      done.push_back(mobility);
-      find(mobility, openings);
+      if (std::ranges::any_of(done, [&](const Tensor& other) { return has_mobility(k, other); })) continue;
+      done.push_back(normalized_mobility(k));
+      find(done.back(), openings);
     }
   }
 
@@ -40,10 +41,13 @@ class LineOfWell {
   const WellPlace::Piece& piece(int k) const { return *places_[k].piece; }
   const WellPlace& place() const { return places_[first_]; }
 
-  /// The mobility of the rock around a piece, but for a factor.
-  Tensor direction_of(int k) const {
+  Tensor normalized_mobility(int k) const {
     const Tensor& mobility = fluxes_.mobility()[piece(k).cell];
     return mobility / mobility.norm();
+  }
+  /// Whether the rock around a piece has this mobility, but for a factor.
+  bool has_mobility(int k, const Tensor& normalized) const {
+    return (normalized_mobility(k) - normalized).norm() < alike;
   }
 
   [[noreturn]] void refuse(const std::string& why) const {
@@ -71,7 +75,7 @@ class LineOfWell {
     if (has_fracture) refuse("its cells touch a fracture");
     refuse_what_is_no_closed_side();
     for (const auto& [at, normal] : planes)
-      if ((mobility * normal - normal.dot(mobility * normal) * normal).norm() > at_a_side)
+      if (normal.cross(mobility * normal).norm() > oblique)
         refuse("its cells touch the side at " + to_text(at) + ", to which the permeability is oblique");
     if (planes.size() < 2) return planes;
     const std::vector<Point>& line = piece(first_).line;
@@ -81,9 +85,10 @@ class LineOfWell {
         return std::abs(plane.normal.dot(end - plane.at)) < at_a_side * along.norm();
       });
     };
-    const bool is_between = planes.size() == 2 && line.size() == 2 && ends_at(planes[0]) && ends_at(planes[1]) &&
-                            std::abs(planes[0].normal.dot(along)) > (1 - at_a_side) * along.norm() &&
-                            std::abs(planes[1].normal.dot(along)) > (1 - at_a_side) * along.norm();
+    const bool is_between =
+        planes.size() == 2 && line.size() == 2 && std::ranges::all_of(planes, [&](const ClosedPlane& plane) {
+          return ends_at(plane) && plane.normal.cross(along).norm() < oblique * along.norm();
+        });
     if (!is_between) refuse("its cells touch several sides, between which it is no straight line at right angles");
     return planes;
   }
@@ -92,8 +97,7 @@ class LineOfWell {
     try {
       return {mesh_, fluxes_, lengths_, field, mobility, planes};
     } catch (const std::invalid_argument& error) {
-      throw InputError(place().origin, "the index of well '" + place().name + "' is not known for this flow",
-                       error.what(), "use matrix_flow/mpfa or matrix_flow/tpfa, or give its 'index'");
+      refuse_flow(place(), error.what());
     }
   }
 
@@ -110,9 +114,7 @@ class LineOfWell {
   /// The openings of all pieces in rock of this mobility, but for a factor.
   void find(const Tensor& mobility, std::vector<RockOpening>& openings) const {
     const std::vector<ClosedPlane> planes = this->planes(mobility);
-    const double skin = place().skin;
-    const double radius = place().radius * std::exp(-std::min(skin, 0.0));  // as in a plane
-    const LineField field(piece(first_).line, mobility, radius, planes);
+    const LineField field(piece(first_).line, mobility, widened_radius(place()), planes);
     const LinePatch patch = this->patch(field, mobility, planes);
     std::map<double, std::vector<double>> transformed;
     const auto transforms = [&](double decay) -> const std::vector<double>& {
@@ -127,7 +129,7 @@ class LineOfWell {
     }
     const std::vector<double> steady = patch.pressures();
     for (int k = first_; k < last_; ++k) {
-      if ((direction_of(k) - mobility).norm() >= alike) continue;
+      if (!has_mobility(k, mobility)) continue;
       const auto& [cell, from, to, line] = piece(k);
       const auto row = std::distance(lengths_.begin(), lengths_.find(cell));
       // Pressures are those of 1 m of the first part of the line: that of this part may be another one.
@@ -136,9 +138,10 @@ class LineOfWell {
       openings[k].early = fit_early_terms(log_of_radii, field.bore(), area, [&](double decay) {
         return part * (field.transformed_pressure_at_bore(from, to, decay) - transforms(decay)[row]);
       });
-      openings[k].early.log_of_radii += std::max(skin, 0.0);
-      require_positive_index(places_[k], openings[k].early.log_of_radii, field.bore() * std::exp(log_of_radii),
-                             field.bore());
+      // Terms have the diffusivity across the first part of the line, and WellExchange that across this one.
+      for (double& scale : openings[k].early.scales) scale *= part;
+      openings[k].early.log_of_radii += skin_beside_radius(place());
+      require_positive_index(places_[k], openings[k].early.log_of_radii, field.bore() * std::exp(log_of_radii));
     }
   }
 

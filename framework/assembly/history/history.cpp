@@ -118,9 +118,10 @@ void History::begin_step(const StepToRemember& step, const StateAt& state_at) {
 
 void History::hold(bool is_held) {
   is_held_ = is_held;
-  if (is_held) time_ = length_ = 0;
-  if (is_held)  // what has been shown of a state that is still to be found
-    for (Field* field : fields_) field->set(field->accepted());
+  if (is_held) {
+    time_ = length_ = 0;
+    for (Field* field : fields_) field->set(field->accepted());  // show() has seen a state that is still to be found
+  }
   ++version_;
 }
 
